@@ -124,19 +124,19 @@ void check_points(const Question& question, const Mesh& a, const Mesh& b) {
   const auto check_from = [&](const Mesh& from, const Mesh& to) {
     if (question.asks_for_sides()) refuse_points(to, question.option("signed"), "sides");
     if (question.is_by_face()) refuse_points(from, question.option("face-max"), "faces");
-    if (question.map_pixels > 0) refuse_points(from, "pictures and pages", "surface to draw");
   };
   check_from(a, b);
   if (question.symmetric) check_from(b, a);
 }
 
-// Only figures without sides have a part of A that they are of.
+// Only figures and maps without sides have a part of A that they are of.
 void check_max_distance(const Question& question) {
   if (!question.max_distance) return;
   const std::string option = question.option("max-distance");
-  if (!question.statistics) throw UsageError(option + ": is of figures, which are not asked for");
-  if (question.area || question.asks_for_sides() || question.map_pixels > 0)
-    throw UsageError(option + ": is of figures alone, not of areas to pass, sides or pictures");
+  if (!question.statistics && !(question.map_pixels > 0))
+    throw UsageError(option + ": is of figures and of pictures by cells, which are not asked for");
+  if (question.area || question.asks_for_sides())
+    throw UsageError(option + ": is of figures and pictures, not of areas to pass or sides");
 }
 
 // Corners that are off a plane by less than a tenth of the tolerance, as decimals of a slanted

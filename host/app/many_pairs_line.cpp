@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <limits>
+#include <utility>
 
 #include "host/answer/options.h"
 #include "vkhausdorff/error.h"
@@ -105,6 +106,7 @@ void add_batch(CLI::App& command, TypedMany& typed) {
   add_metrics_options(command, typed.of_pairs);
   add_folder_options(command, typed.of_pairs.pictures);
   add_effort_option(command, typed.of_pairs);
+  add_max_distance_option(command, typed.of_pairs, "pictures and pages");
   command.add_option("--device", typed.of_pairs.device,
                      "Devices, between commas, as 'doctor' names them; all: every GPU [the best]");
   command.add_option("--together", typed.together,
@@ -172,6 +174,7 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
         "--effort: is of figures and of what is drawn: ask for --signed, --metrics, "
         "--image-dir or --report-dir");
   batch.folders.effort = line.question.effort;
+  batch.folders.max_distance = std::exchange(line.question.max_distance, std::nullopt);
   return line;
 }
 

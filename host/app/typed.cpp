@@ -93,29 +93,27 @@ void check_together(const Typed& typed) {
         "--signed, --bands, --area, --report, --figures-csv or --certificate");
 }
 
-// Pictures, pages and places are of surfaces. A field has a value for each point.
-void check_pictures(const Typed& typed, const Question& question) {
+// A GLB has triangles, which points are not.
+void check_field(const Typed& typed, const Question& question) {
   const bool starts_at_points = question.points_a || (question.points_b && typed.symmetric);
-  if (starts_at_points && typed.pictures.draws_surface())
-    throw UsageError(
-        "--points: pictures and pages draw surfaces: no --image, --report, --figures-csv or "
-        "--points-out from points; --field OUT.ply has a distance for each point, and --stats "
-        "the figures");
   if (starts_at_points && typed.pictures.field.ends_with(".glb"))
     throw UsageError("--field: points with their distances are written as .ply, not as .glb");
 }
 
-// A verdict is of all of A; sides and pictures have no such part.
+// A verdict is of all of A, and sides have no such part.
 void check_max_distance(const Typed& typed) {
   if (typed.max_distance.empty()) return;
   if (typed.metrics) throw UsageError("--max-distance: metrics are of all of A and B");
-  if (!typed.statistics && typed.bands.empty())
-    throw UsageError("--max-distance: is of figures: ask for --stats or --bands");
-  const bool has_sides = typed.is_signed || typed.max.find(',') != std::string::npos;
-  if (!typed.area.empty() || has_sides || typed.pictures.draws_surface())
+  if (!typed.statistics && typed.bands.empty() && !typed.pictures.draws_surface())
     throw UsageError(
-        "--max-distance: leaves out of the mean, root mean square, percentiles and bands alone: no "
-        "--area, --signed, --image, --report, --figures-csv or --points-out");
+        "--max-distance: is of figures and pictures by cells: ask for --stats, --bands, --image or "
+        "--report; in a batch for --image-dir or --report-dir");
+  if (typed.pictures.field_by == "faces" && typed.pictures.draws_surface())
+    throw UsageError("--max-distance: a picture by faces shows all of them: leave out --field-by");
+  const bool has_sides = typed.is_signed || typed.max.find(',') != std::string::npos;
+  if (!typed.area.empty() || has_sides)
+    throw UsageError(
+        "--max-distance: leaves out of figures and pictures alone: no --area, no sides");
 }
 
 void check_part(const Typed& typed) {
@@ -181,7 +179,7 @@ Question question_of(const Typed& typed, const Words& words, const char* command
     if (typed.bodies == "all") question.limits.bodies = Bodies::kAll;
   }
   if (!typed.points.empty()) put_points("--points", typed.points, question);
-  check_pictures(typed, question);
+  check_field(typed, question);
   return question;
 }
 
@@ -259,12 +257,7 @@ void add_survey_options(CLI::App& command, Typed& typed) {
       ->delimiter(',')
       ->type_name("LENGTH,..")
       ->allow_extra_args(false);
-  command
-      .add_option(
-          "--max-distance", typed.max_distance,
-          "Leave out of these figures what is farther, and say its share: strays of a scan; "
-          "h and verdicts are of all of A")
-      ->type_name("LENGTH");
+  add_max_distance_option(command, typed, "figures and pictures");
   command
       .add_option("--field-tol", typed.field_tolerance,
                   "Bound the largest distance on each face of A, to so much [1 % of the largest]")
@@ -277,6 +270,15 @@ void add_signed_option(CLI::App& command, Typed& typed, const char* figures) {
                    std::string("Also tell where A is over B, in front of its faces as they are "
                                "oriented, and where under it, as far as that is proven; ") +
                        figures);
+}
+
+void add_max_distance_option(CLI::App& command, Typed& typed, const char* of) {
+  command
+      .add_option("--max-distance", typed.max_distance,
+                  std::string("Leave out of ") + of +
+                      " what is farther, and say its share: strays of a scan; h and verdicts are "
+                      "of all of A")
+      ->type_name("LENGTH");
 }
 
 void add_effort_option(CLI::App& command, Typed& typed) {

@@ -53,6 +53,8 @@ void add_search_options(CLI::App& command, Typed& typed);  ///< device, time and
 void add_survey_options(CLI::App& command, Typed& typed);
 void add_signed_option(CLI::App& command, Typed& typed, const char* figures);
 void add_effort_option(CLI::App& command, Typed& typed);
+/// `of`: what it leaves out of.
+void add_max_distance_option(CLI::App& command, Typed& typed, const char* of);
 void add_output_options(CLI::App& command, Typed& typed);
 void add_metrics_options(CLI::App& command, Typed& typed);
 

@@ -58,7 +58,9 @@ BatchFolders::BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& 
 
 std::string BatchFolders::key_of(const RecordName& name) const {
   const std::string effort = asked_.effort ? "\neffort " + std::to_string(*asked_.effort) : "";
-  return name.key + "\n" + text_of(asked_.look) + effort;
+  const std::string most =
+      asked_.max_distance ? "\nmax-distance " + asked_.max_distance->requested : "";
+  return name.key + "\n" + text_of(asked_.look) + effort + most;
 }
 
 bool BatchFolders::has(const RecordName& name, bool symmetric) const {
@@ -86,15 +88,15 @@ void BatchFolders::ask(Question& question) const {
   ask_for(asked_.look, question);
   question.statistics = question.statistics || reports_.has_value();
   if (asked_.effort) question.effort = asked_.effort;
+  if (!asked_.max_distance) return;
+  if (question.asks_for_sides())
+    throw UsageError("--max-distance: leaves out of figures and pictures without sides alone");
+  question.max_distance = asked_.max_distance;
 }
 
 // Writes no picture of a survey that was cut short: it would later be taken for a whole one.
 void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   const NamedEntry& entry = pair.entry;
-  const bool symmetric = entry.question.symmetric;
-  for (const Mesh* mesh : {&*pair.meshes.a, symmetric ? &*pair.meshes.b : nullptr}) {
-    if (mesh != nullptr) refuse_points(*mesh, "pictures and pages", "surface to draw");
-  }
   if (!answer.survey_a) {
     Question question = entry.question;
     ask(question);

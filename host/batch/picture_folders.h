@@ -17,7 +17,8 @@ namespace vkh {
 struct FoldersAsked {
   std::optional<std::string> images = {}, reports = {};
   PictureStyle look;
-  std::optional<uint64_t> effort = {};  ///< SurveyOptions::effort
+  std::optional<uint64_t> effort = {};      ///< SurveyOptions::effort
+  std::optional<Length> max_distance = {};  ///< Question::max_distance of what is drawn
   bool any() const { return images || reports; }
 };
 

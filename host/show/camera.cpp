@@ -2,11 +2,56 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
+#include <vector>
 
 #include "host/base/from_chars.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh::drawing {
+namespace {
+
+// A million points, evenly from the file's order, tell where a surface is.
+constexpr size_t kMostSampled = size_t{1} << 20;
+
+/// Counts the boxes of a grid of `along` boxes a side that have a point.
+size_t boxes_with_points(const Mesh& mesh, const Box& box, double side, size_t along) {
+  std::vector<bool> has(along * along * along);
+  const size_t stride = (mesh.vertices.size() + kMostSampled - 1) / kMostSampled;
+  size_t count = 0;
+  for (size_t i = 0; i < mesh.vertices.size(); i += stride) {
+    const glm::dvec3 at = (glm::dvec3(mesh.vertices[i]) - box.lo) / side;
+    size_t number = 0;
+    for (const double x : {at.x, at.y, at.z}) {
+      const double last = static_cast<double>(along - 1);
+      number = number * along +
+               static_cast<size_t>(std::clamp(x * static_cast<double>(along), 0.0, last));
+    }
+    if (has[number]) continue;
+    has[number] = true;
+    ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+// Boxes that have four points on average lie on the surface, and each has about one side of it.
+// With fewer a box, most boxes on the surface have none.
+double spacing_of(const Mesh& mesh) {
+  constexpr size_t kFinest = 128, kPointsOfBox = 4;
+  if (!mesh.are_points) return 0;
+  const Box box = box_of(mesh);
+  const glm::dvec3 size = box.hi - box.lo;
+  const double side = std::max({size.x, size.y, size.z, 1e-300});
+  const auto count = static_cast<double>(mesh.vertices.size());
+  const size_t samples = std::min(mesh.vertices.size(), kMostSampled);
+  for (size_t along = kFinest;; along /= 2) {
+    const size_t boxes = boxes_with_points(mesh, box, side, along);
+    if (along > 1 && boxes * kPointsOfBox > samples) continue;
+    return side / static_cast<double>(along) * std::sqrt(static_cast<double>(boxes) / count);
+  }
+}
 
 Spot spot_of(const Picture& picture) {
   if (picture.witness) {
@@ -23,6 +68,10 @@ Spot spot_of(const Picture& picture) {
 
 Panel Views::view_from(glm::dvec3 direction, const Area& area) const {
   Panel panel{fitted(picture_.mesh, axes_of(direction, options_.up), area)};
+  Camera& camera = panel.camera;
+  camera.spacing = spacing_;
+  if (spacing_ > 0)  // whole discs
+    camera.scale *= 1 - 2 * camera.disc() / std::min(area.width, area.height);
   panel.shows_spot = is_seen(picture_.mesh, panel.camera, spot_.point);
   return panel;
 }

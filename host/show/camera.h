@@ -49,6 +49,7 @@ struct Camera {
   double scale = 1;     ///< pixels a unit
   double reach = 1;     ///< distance behind `centre` up to which something is drawn
   double before = 1;    ///< the same before it, towards the viewer
+  double spacing = 0;   ///< between points, in units; 0: there are faces
   Area area;
 
   glm::dvec3 turned(glm::dvec3 v) const {
@@ -58,6 +59,12 @@ struct Camera {
     const glm::dvec3 t = turned(p - centre);
     const glm::dvec2 middle = area.centre();
     return {middle.x + scale * t.x, middle.y - scale * t.y, t.z};
+  }
+  /// The radius of a point's disc, in pixels: discs of a surface hide what is behind it.
+  double disc() const {
+    constexpr double kOfSpacing = 0.9, kLeast = 0.7, kMostOfArea = 0.009;
+    return std::clamp(kOfSpacing * spacing * scale, kLeast,
+                      std::max(kMostOfArea * area.width, kLeast));
   }
   /// Vulkan's clip space, of a pixel with its depth.
   glm::dvec3 clipped(const glm::dvec3& pixel) const {
@@ -120,8 +127,25 @@ inline bool hides(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
   return (u * a.z + v * b.z + w * c.z) / all > p.z + slack;
 }
 
-/// Returns whether no face stands before the point.
+/// About how far points of a surface are from their neighbours, in the files' units: the root of
+/// the area that one of them has. 0 for a mesh that is no points.
+double spacing_of(const Mesh& mesh);
+
+/// Returns whether no disc of another point stands before the point.
+inline bool is_seen_among(const Mesh& points, const Camera& camera, glm::dvec3 point) {
+  const glm::dvec3 p = camera.pixel(point);
+  // Neighbours on a surface that is seen at a slant are somewhat before it.
+  const double slack = 4 * std::max(camera.disc() / camera.scale, camera.spacing);
+  const double most = camera.disc() * camera.disc();
+  return std::none_of(points.vertices.begin(), points.vertices.end(), [&](const glm::dvec3& v) {
+    const glm::dvec3 off = camera.pixel(v) - p;
+    return off.z > slack && off.x * off.x + off.y * off.y <= most;
+  });
+}
+
+/// Returns whether no face, or disc of a point, stands before the point.
 inline bool is_seen(const Mesh& mesh, const Camera& camera, glm::dvec3 point) {
+  if (mesh.are_points) return is_seen_among(mesh, camera, point);
   constexpr double kSlack = 1e-5;  // fraction of the diagonal: the point's own faces are no screen
   const glm::dvec3 p = camera.pixel(point);
   const double slack = kSlack * diagonal_of(mesh);
@@ -155,7 +179,8 @@ class Views {
         options_(options),
         unit_(unit),
         spot_(spot_of(picture)),
-        diagonal_(diagonal_of(picture.mesh)) {}
+        diagonal_(diagonal_of(picture.mesh)),
+        spacing_(spacing_of(picture.mesh)) {}
 
   const Spot& spot() const { return spot_; }
   std::vector<Panel> panels_in(const Area& area) const;
@@ -175,7 +200,7 @@ class Views {
   const PictureOptions& options_;
   double unit_;
   Spot spot_;
-  double diagonal_;
+  double diagonal_, spacing_;
 };
 
 }  // namespace vkh::drawing

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "host/show/light.h"
+#include "host/show/splat.h"
 
 namespace vkh::drawing {
 namespace {
@@ -35,29 +36,34 @@ class FaceWriter {
       : picture_(picture), scale_(scale), camera_(camera) {}
 
   void operator()(size_t face, Corner* corners) const {
+    const FaceLook look = look_of(picture_, scale_, face);
+    if (picture_.mesh.are_points) {
+      const glm::dvec3 pixel = camera_.pixel(picture_.mesh.vertices[face]);
+      return put_disc(camera_, pixel, corner_of(look, light_at(camera_, pixel.z), 0), corners);
+    }
     std::array<glm::dvec3, 3> at;
     for (size_t i = 0; i < at.size(); ++i) {
       const auto corner = static_cast<glm::length_t>(i);
       at[i] = camera_.pixel(picture_.mesh.vertices[picture_.mesh.faces[face][corner]]);
     }
-    const FaceLook look = look_of(picture_, scale_, face);
     const double light = light_on(normal_seen(at, camera_.scale));
-    const auto lit = [&](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
     const uint8_t edges = edge_strength(at[0], at[1], at[2]);
     for (size_t i = 0; i < at.size(); ++i) {
       const glm::dvec3 clip = camera_.clipped(at[i]);
-      corners[i] = {static_cast<float>(clip.x),
-                    static_cast<float>(clip.y),
-                    static_cast<float>(clip.z),
-                    0,
-                    {lit(look.colour.red), lit(look.colour.green), lit(look.colour.blue), edges},
-                    static_cast<uint8_t>(look.hatched ? 1 : 0),
-                    0,
-                    {}};
+      corners[i] = corner_of(look, light, edges);
+      corners[i].x = static_cast<float>(clip.x);
+      corners[i].y = static_cast<float>(clip.y);
+      corners[i].z = static_cast<float>(clip.z);
     }
   }
 
  private:
+  static Corner corner_of(const FaceLook& look, double light, uint8_t edges) {
+    const auto lit = [&](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
+    return {.colour = {lit(look.colour.red), lit(look.colour.green), lit(look.colour.blue), edges},
+            .hatched = static_cast<uint8_t>(look.hatched ? 1 : 0)};
+  }
+
   const Picture& picture_;
   const Scale& scale_;
   const Camera& camera_;

@@ -90,6 +90,7 @@ class Drawing {
   bool draw_closest(const Camera& camera);
   void draw_legend(const Area& side);
   std::string map_colours_text() const;
+  std::string bounds_colours_text() const;
   void draw_panel_frame(const Panel& panel);
   void draw_axes_and_ruler(const std::vector<Panel>& panels, const Camera& camera);
   void draw_numbers(const Panel& panel, const Layer& layer, bool is_single);
@@ -115,18 +116,23 @@ std::string Drawing::map_colours_text() const {
   const std::string other = picture_.back ? "A" : "B";
   std::string text = "Colour: the estimated distance from " + other +
                      ", off by at most 5 % of the bar, where it is not hatched.";
+  if (picture_.mesh.are_points) text += " A disc is a point.";
   if (!places_.empty() && options_.view.kind != View::Kind::kSix)
     text += " A grey number is hidden in this view.";
   return text;
 }
 
-std::vector<std::string> Drawing::footer_lines() const {
+std::string Drawing::bounds_colours_text() const {
   const std::string other = picture_.back ? "A" : "B";
-  std::vector<std::string> lines = {
-      picture_.map != nullptr ? map_colours_text()
-      : picture_.limit
-          ? "Colour of a face: the verdict on its largest distance from " + other + "."
-          : "Colour of a face: a proven upper bound of its largest distance from " + other + "."};
+  const bool are_points = picture_.mesh.are_points;
+  return std::string(are_points ? "Colour of a point: " : "Colour of a face: ") +
+         (picture_.limit ? "the verdict on its " : "a proven upper bound of its ") +
+         (are_points ? "distance from " : "largest distance from ") + other + ".";
+}
+
+std::vector<std::string> Drawing::footer_lines() const {
+  std::vector<std::string> lines = {picture_.map != nullptr ? map_colours_text()
+                                                            : bounds_colours_text()};
   if (!picture_.unfinished.empty())
     lines[0] += " The map is not finished: " + picture_.unfinished + ".";
   for (const std::string& text : picture_.caption) {

@@ -124,14 +124,17 @@ void draw_interval(const Sheet& sheet, const Bar& bar) {
   draw_marker(sheet, bar, h.lower, "h \u2265 " + text.lower, lower_y);
 }
 
-std::string faces_text(size_t count) { return grouped(count) + (count == 1 ? " face" : " faces"); }
+std::string faces_text(const Picture& picture, size_t count) {
+  return grouped(count) + (picture.mesh.are_points ? " point" : " face") + (count == 1 ? "" : "s");
+}
 
 /// Writes below the bar what it does not show.
 double draw_notes(const Sheet& sheet, const Area& area) {
   const FaceCounts counts = count_faces(sheet.picture, sheet.scale);
   std::vector<std::string> notes;
-  if (counts.above > 0) notes.push_back(faces_text(counts.above) + " above the bar");
-  if (counts.unbounded > 0) notes.push_back(faces_text(counts.unbounded) + " without a bound");
+  if (counts.above > 0) notes.push_back(faces_text(sheet.picture, counts.above) + " above the bar");
+  if (counts.unbounded > 0)
+    notes.push_back(faces_text(sheet.picture, counts.unbounded) + " without a bound");
   const double size = 15 * sheet.unit, line = 24 * sheet.unit;
   double y = area.bottom();
   for (const std::string& note : notes) {
@@ -239,7 +242,8 @@ void draw_verdicts(const Sheet& sheet, const Area& area) {
   const std::array<Row, 3> rows{{{Verdict::kWithin, "proven within " + limit, counts.within},
                                  {Verdict::kBeyond, "proven beyond " + limit, counts.beyond},
                                  {Verdict::kUndecided, "undecided", counts.undecided}}};
-  write(sheet.canvas, {area.x, area.y + 16 * u}, "verdict on each face",
+  write(sheet.canvas, {area.x, area.y + 16 * u},
+        sheet.picture.mesh.are_points ? "verdict on each point" : "verdict on each face",
         {16 * u, kGrey, Align::kLeft});
   double y = area.y + 38 * u;
   for (const Row& r : rows) {
@@ -250,7 +254,8 @@ void draw_verdicts(const Sheet& sheet, const Area& area) {
     const double x = swatch.right() + 14 * u, width = area.right() - x;
     write(sheet.canvas, {x, y + 16 * u}, r.text,
           {size_for(r.text, size, width), kInk, Align::kLeft});
-    write(sheet.canvas, {x, y + 38 * u}, faces_text(r.count), {16 * u, kGrey, Align::kLeft});
+    write(sheet.canvas, {x, y + 38 * u}, faces_text(sheet.picture, r.count),
+          {16 * u, kGrey, Align::kLeft});
     y += row;
   }
 }

@@ -15,9 +15,15 @@ double fitted_size(const std::string& text, double size, double width) {
   return std::min(size, size * width / std::max(text_width(text, size), 1e-9));
 }
 
+// What shares are of.
+const char* of_what(const Picture& picture) {
+  return picture.mesh.are_points ? " of the points" : " of the area";
+}
+
 // A survey that was not cut short leaves parts that are smaller than a pixel.
 std::string unresolved_text(const Picture& picture, double share) {
-  return (picture.unfinished.empty() ? "not resolved, smaller than a pixel: " : "not resolved: ") +
+  const bool is_small = picture.unfinished.empty() && !picture.mesh.are_points;
+  return (is_small ? "not resolved, smaller than a pixel: " : "not resolved: ") +
          percent_text(share);
 }
 
@@ -102,13 +108,17 @@ std::vector<LegendRow> legend_rows(const Picture& picture, const MapScale& scale
   if (counts.above > 0)
     rows.push_back(
         {kOver, false,
-         "over " + number(scale.high()) + ": " + percent_text(counts.above) + " of the area"});
+         "over " + number(scale.high()) + ": " + percent_text(counts.above) + of_what(picture)});
   if (counts.below > 0)
     rows.push_back(
         {kBelow, false,
-         "below " + number(scale.low()) + ": " + percent_text(counts.below) + " of the area"});
+         "below " + number(scale.low()) + ": " + percent_text(counts.below) + of_what(picture)});
   if (counts.no_side > 0)
     rows.push_back({kNoSide, false, "no side known: " + percent_text(counts.no_side)});
+  if (counts.left_out > 0)
+    rows.push_back({kLeftOut, false,
+                    "left out, over " + number(*picture.map->max_distance) + ": " +
+                        percent_text(counts.left_out) + of_what(picture)});
   if (counts.unresolved > 0)
     rows.push_back({kUnbounded, true, unresolved_text(picture, counts.unresolved)});
   return rows;
@@ -177,10 +187,12 @@ std::vector<std::string> figures_of(const Sheet& sheet, const MapLegend& legend)
   const auto number = [&](double x) { return with_unit(sheet.picture, short_number(x)); };
   std::vector<std::string> figures;
   if (legend.scale.limit())
-    figures.push_back(percent_text(legend.counts.within) + " of the area within the limit");
+    figures.push_back(percent_text(legend.counts.within) + of_what(sheet.picture) +
+                      " within the limit");
   const Statistics* s = sheet.picture.statistics;
   const bool has_mean = s != nullptr && s->mean.estimate;
-  figures.push_back("mean " + number(has_mean ? *s->mean.estimate : legend.counts.mean));
+  const std::string of_rest = legend.counts.left_out > 0 ? "of the rest: mean " : "mean ";
+  figures.push_back(of_rest + number(has_mean ? *s->mean.estimate : legend.counts.mean));
   if (s == nullptr) return figures;
   if (s->rms.estimate) figures.back() += ", rms " + number(*s->rms.estimate);
   std::string percentiles;
@@ -206,7 +218,8 @@ void draw_histogram(const Sheet& sheet, const MapLegend& legend, const Area& are
           {fitted_size(text, size, area.width), kInk, Align::kLeft});
   }
   if (plot.height < 20 * u) return;
-  write(sheet.canvas, {area.x, area.y + size}, "share of the area by distance",
+  write(sheet.canvas, {area.x, area.y + size},
+        std::string("share") + of_what(sheet.picture) + " by distance",
         {size, kGrey, Align::kLeft});
   const auto& bins = legend.counts.bins;
   const double most = std::max({*std::max_element(bins.begin(), bins.end()), legend.counts.above,

@@ -16,7 +16,8 @@ struct MapLegend {
   const std::vector<MapPlace>& places;
 };
 
-/// A row of what the bar's colours do not tell: a swatch, and its text with a share of the area.
+/// A row of what the bar's colours do not tell: a swatch, and its text with a share of the area
+/// or of the points.
 struct LegendRow {
   Rgb colour;
   bool is_hatched;
@@ -33,10 +34,10 @@ std::string short_number(double x);
 void draw_map_bar(const Sheet& sheet, const MapLegend& legend, const Area& area);
 /// Lists the places by their numbers: distance and coordinates. Returns the height that it takes.
 double draw_places(const Sheet& sheet, const MapLegend& legend, const Area& area);
-/// Draws the distribution of area over the bar, and figures.
+/// Draws the distribution of area, or of points, over the bar, and figures.
 void draw_histogram(const Sheet& sheet, const MapLegend& legend, const Area& area);
 
-/// A share of area for people: "12 %", "0.03 %", "under 0.01 %".
+/// A share for people: "12 %", "0.03 %", "under 0.01 %".
 std::string percent_text(double share);
 
 /// The disc with a place's number.

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 
+#include "host/show/camera.h"
 #include "host/show/page_words.h"
 #include "host/show/shown_cells.h"
 
@@ -15,6 +17,7 @@ namespace {
 
 constexpr double kLeastOfLargest = 0.1, kFall = 0.5;
 constexpr int64_t kGrid = 64;
+constexpr double kSpacings = 2.5;  // of points: a box has no empty boxes around it then
 
 float largest_of(const MapCell& cell) {
   return std::max({cell.estimate[0], cell.estimate[1], cell.estimate[2]});
@@ -78,6 +81,7 @@ class MapGrid {
     const double extent = std::max({size.x, size.y, size.z});
     lo_ = lo;
     step_ = extent > 0 ? extent / static_cast<double>(kGrid) : 1;
+    step_ = std::max(step_, kSpacings * drawing::spacing_of(mesh));
   }
 
   /// Adds the corners of a cell that are at least so far.
@@ -194,12 +198,18 @@ class FarClusters {
 std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t most,
                                  const std::optional<Witness>& witness) {
   float largest = 0;
-  for (const MapCell& cell : map.cells) largest = std::max(largest, largest_of(cell));
+  for (const MapCell& cell : map.cells) {
+    if (!map.is_left_out(cell)) largest = std::max(largest, largest_of(cell));
+  }
   if (static_cast<double>(largest) <= map.least) return {};
   MapGrid grid(mesh);
   const auto least = static_cast<float>(kLeastOfLargest * static_cast<double>(largest));
-  for (const MapCell& cell : map.cells) grid.add(mesh, map, cell, least);
-  if (witness && witness->distance.lower > static_cast<double>(least) * map.unit)
+  for (const MapCell& cell : map.cells) {
+    if (!map.is_left_out(cell)) grid.add(mesh, map, cell, least);
+  }
+  const double farthest = map.max_distance.value_or(std::numeric_limits<double>::infinity());
+  if (witness && witness->distance.lower <= farthest &&
+      witness->distance.lower > static_cast<double>(least) * map.unit)
     grid.add(place_of_witness(map, *witness));
   std::vector<MapPlace> places;
   const FarClusters clusters(grid);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/show/light.h"
+#include "host/show/splat.h"
 
 namespace vkh::drawing {
 namespace {
@@ -104,8 +105,13 @@ double MapScale::distance_of(const MapCell& cell) const {
   return (distance_at(cell, 0) + distance_at(cell, 1) + distance_at(cell, 2)) / 3;
 }
 
+std::optional<Rgb> MapScale::plain_colour(const MapCell& cell) const {
+  if (is_left_out(cell)) return kLeftOut;
+  return is_without_side(cell) ? std::optional(kNoSide) : std::nullopt;
+}
+
 bool MapScale::is_unresolved(const MapCell& cell) const {
-  return map_.is_unresolved(cell, std::max(high_, -low_));
+  return !is_left_out(cell) && map_.is_unresolved(cell, std::max(high_, -low_));
 }
 
 namespace {
@@ -117,29 +123,35 @@ class CellWriter {
 
   void operator()(size_t i, Corner* corners) const {
     const MapCell& cell = picture_.map->cells[i];
+    if (picture_.mesh.are_points) {
+      const glm::dvec3 at = camera_.pixel(picture_.mesh.vertices[cell.face]);
+      return put_disc(camera_, at, look_at(cell, 0, light_at(camera_, at.z)), corners);
+    }
     const std::array<glm::dvec3, 3> at = pixels_of(cell);
     const double light = light_on(normal_seen(at, camera_.scale));
-    const bool is_grey = scale_.is_without_side(cell);
-    const auto lit = [light](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
     for (size_t k = 0; k < at.size(); ++k) {
       const glm::dvec3 clip = camera_.clipped(at[k]);
-      Corner& corner = corners[k];
-      corner = {.x = static_cast<float>(clip.x),
-                .y = static_cast<float>(clip.y),
-                .z = static_cast<float>(clip.z),
-                .share = static_cast<float>(
-                    std::clamp(scale_.share_of(scale_.distance_at(cell, k)), -8.0, 8.0)),
-                .colour = {lit(255), 0, 0, 0},
-                .hatched = static_cast<uint8_t>(scale_.is_unresolved(cell) ? 1 : 0),
-                .by_share = 1,
-                .pad = {}};
-      if (!is_grey) continue;
-      corner.by_share = 0;
-      corner.colour[0] = corner.colour[1] = corner.colour[2] = lit(kNoSide.red);
+      corners[k] = look_at(cell, k, light);
+      corners[k].x = static_cast<float>(clip.x);
+      corners[k].y = static_cast<float>(clip.y);
+      corners[k].z = static_cast<float>(clip.z);
     }
   }
 
  private:
+  // A corner of a cell without its place.
+  Corner look_at(const MapCell& cell, size_t corner, double light) const {
+    const auto lit = [light](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
+    const auto hatched = static_cast<uint8_t>(scale_.is_unresolved(cell) ? 1 : 0);
+    if (const std::optional<Rgb> plain = scale_.plain_colour(cell))
+      return {.colour = {lit(plain->red), lit(plain->green), lit(plain->blue), 0},
+              .hatched = hatched};
+    const double share = scale_.share_of(scale_.distance_at(cell, corner));
+    return {.share = static_cast<float>(std::clamp(share, -8.0, 8.0)),
+            .colour = {lit(255), 0, 0, 0},
+            .hatched = hatched,
+            .by_share = 1};
+  }
   std::array<glm::dvec3, 3> pixels_of(const MapCell& cell) const {
     const glm::uvec3 f = picture_.mesh.faces[cell.face];
     const std::array<glm::dvec3, 3> face{picture_.mesh.vertices[f.x], picture_.mesh.vertices[f.y],
@@ -172,6 +184,10 @@ MapCounts counts_of(const CellMap& map, const MapScale& scale) {
   };
   for (const MapCell& cell : map.cells) {
     const auto area = static_cast<double>(cell.share);
+    if (scale.is_left_out(cell)) {
+      counts.left_out += area;
+      continue;
+    }
     const float sum = cell.estimate[0] + cell.estimate[1] + cell.estimate[2];
     counts.mean += area * map.unit * static_cast<double>(sum) / 3;
     if (scale.is_unresolved(cell)) counts.unresolved += area;
@@ -189,6 +205,10 @@ MapCounts counts_of(const CellMap& map, const MapScale& scale) {
       const auto bin = static_cast<size_t>(share * MapCounts::kBins);
       counts.bins[std::min(bin, MapCounts::kBins - 1)] += area;
     }
+  }
+  if (counts.left_out < 1) {
+    counts.mean /= 1 - counts.left_out;
+    counts.within /= 1 - counts.left_out;
   }
   return counts;
 }

@@ -8,9 +8,10 @@
 
 namespace vkh::drawing {
 
-/// The colour of what is above the bar, or below a signed one's lower end; and of cells that have
-/// no side.
-inline constexpr Rgb kOver{214, 32, 140}, kBelow{91, 15, 128}, kNoSide{150, 150, 150};
+/// The colour of what is above the bar, or below a signed one's lower end; of cells that have no
+/// side; and of what is left out.
+inline constexpr Rgb kOver{214, 32, 140}, kBelow{91, 15, 128}, kNoSide{150, 150, 150},
+    kLeftOut{205, 209, 218};
 
 /// Distances to shares of a bar, and shares to colours. Distances are signed where the map has
 /// sides.
@@ -31,9 +32,12 @@ class MapScale {
   Rgb colour(double distance) const;
   const Palette& palette() const { return palette_; }
 
+  bool is_left_out(const MapCell& cell) const { return map_.is_left_out(cell); }
   /// Whether a cell has no colour but grey: it has no side, and is not so near that it looks like
   /// nought.
   bool is_without_side(const MapCell& cell) const;
+  /// The colour of a cell that the bar does not have; none: its distances are coloured.
+  std::optional<Rgb> plain_colour(const MapCell& cell) const;
   /// The distance by which a corner of a cell is coloured.
   double distance_at(const MapCell& cell, size_t corner) const;
   double distance_of(const MapCell& cell) const;  ///< about its middle
@@ -53,13 +57,15 @@ class MapScale {
 /// Fills in the cells of the picture's map for a raster, as the camera sees them.
 FillFaces cells_for(const Picture& picture, const MapScale& scale, const Camera& camera);
 
-/// Shares of A's area that the colours do not tell, and the distribution of what they tell.
+/// Shares of A's area, or of its points, that the colours do not tell, and the distribution of what
+/// they tell.
 struct MapCounts {
   static constexpr size_t kBins = 36;
   double above = 0, below = 0;  ///< outside of the bar
   double unresolved = 0, no_side = 0;
-  double within = 0;                 ///< probably within the limits
-  double mean = 0;                   ///< of the distance, without a sign
+  double left_out = 0;               ///< in none of the others
+  double within = 0;                 ///< of what is not left out: probably within the limits
+  double mean = 0;                   ///< of the distance of what is not left out, without a sign
   std::array<double, kBins> bins{};  ///< shares of area along the bar
 };
 MapCounts counts_of(const CellMap& map, const MapScale& scale);

@@ -26,7 +26,8 @@ constexpr size_t kCurvePoints = 1000;     // more than the columns of a screen
 
 using drawing::MapScale;
 
-/// The distance that 99 % of the area is within, or the largest if that is not known.
+/// The distance that 99 % of the area, or of the points, is within, or the largest if that is not
+/// known.
 double bar_of(const PageDirection& side, double top) {
   const bool has_any = side.statistics && !side.statistics->percentiles.empty();
   const double end = has_any ? side.statistics->percentiles.back().distance.upper : top;
@@ -110,6 +111,7 @@ class PageWriter {
     std::vector<PackedMesh> packed;
     std::vector<Place> places;
     std::vector<bool> is_decimated;
+    std::vector<double> spacings;
   };
 
   // Pictures may together take two fifths of the page: more is a mistake of their size.
@@ -126,6 +128,7 @@ class PageWriter {
       out.packed.push_back(packed(shown));
       out.places.push_back(shown.place);
       out.is_decimated.push_back(shown.is_decimated);
+      out.spacings.push_back(shown.spacing);
     }
     return out;
   }
@@ -201,6 +204,7 @@ class PageWriter {
     Json side = {{"from", i == 0 ? "A" : "B"},
                  {"to", i == 0 ? "B" : "A"},
                  {"curve", Json::array()},
+                 {"of", of_text(*sides_[i])},
                  {"scale", scale_json(*sides_[i]->scale)}};
     if (const Statistics* statistics = sides_[i]->given.statistics) {
       side["curve"] = curve_json(statistics->curve);
@@ -217,23 +221,33 @@ class PageWriter {
                     {"vertices", mesh.vertices},
                     {"unit", mesh.unit},
                     {"lo", {place.lo.x, place.lo.y, place.lo.z}},
-                    {"size", place.size}};
+                    {"size", place.size},
+                    {"spacing", meshes.spacings[i]}};
     side["decimated"] = meshes.is_decimated[i];
     side["caption"] = caption(*sides_[i], meshes.is_decimated[i], mesh.faces);
     return side;
   }
 
+  // What shares of a direction are of.
+  static std::string of_text(const PageSide& side) {
+    return std::string(side.drawn.mesh.are_points ? "points of " : "area of ") +
+           (side.drawn.back ? "B" : "A");
+  }
+
   static std::string caption(const PageSide& side, bool is_decimated, size_t faces) {
+    const bool are_points = side.drawn.mesh.are_points;
+    const std::string one = are_points ? "point" : "face";
     std::string text =
         side.is_by_faces()
-            ? "Each face has the colour of the middle of its bounds; those of hatched ones are "
-              "farther apart than a tenth of the bar."
+            ? "Each " + one +
+                  " has the colour of the middle of its bounds; those of hatched ones are farther "
+                  "apart than a tenth of the bar."
             : "Colours are estimated distances; hatched parts are known less closely than 5 % of "
               "the bar.";
     if (is_decimated)
-      text += " Simplified for viewing to " + grouped(faces) +
-              " faces: each is coloured by the farthest of what it stands for. The figures are of "
-              "the whole mesh.";
+      text += " Simplified for viewing to " + grouped(faces) + " " + one +
+              "s: each is coloured by the farthest of what it stands for. The figures are of " +
+              (are_points ? "all points." : "the whole mesh.");
     return text;
   }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/base/hash_index.h"
+#include "host/show/camera.h"
 
 namespace vkh {
 namespace {
@@ -275,6 +276,7 @@ class Worst {
     sideless_ += value.is_sideless ? 1 : 0;
     ++count_;
   }
+  bool has_any() const { return count_ > 0; }
   ShownValue value() const {
     ShownValue all{.at = {farthest_, farthest_, farthest_}};
     all.width = std::max(upper_ - farthest_, farthest_ - lower_);
@@ -308,10 +310,16 @@ ShownMesh decimated_mesh(const Mesh& mesh, const CellMap& map, const drawing::Ma
     for (const uint32_t v : {f.x, f.y, f.z}) corners.add(few.vertices[v]);
   }
   corners.put_into(shown);
-  std::vector<Worst> worst(few.faces.size());
-  for (const MapCell& cell : map.cells)
-    add_to(worst[few.face_of[cell.face]], shown_value(map, scale, cell), map.has_sides);
-  for (const Worst& face : worst) shown.values.push_back(face.value());
+  std::vector<Worst> worst(few.faces.size()), left_out(map.max_distance ? few.faces.size() : 0);
+  for (const MapCell& cell : map.cells) {
+    std::vector<Worst>& to = map.is_left_out(cell) ? left_out : worst;
+    add_to(to[few.face_of[cell.face]], shown_value(map, scale, cell), map.has_sides);
+  }
+  for (size_t f = 0; f < worst.size(); ++f) {
+    const bool is_left_out = !worst[f].has_any() && map.max_distance && left_out[f].has_any();
+    shown.values.push_back(is_left_out ? left_out[f].value() : worst[f].value());
+    shown.values.back().is_left_out = is_left_out;
+  }
   return shown;
 }
 
@@ -319,9 +327,14 @@ ShownMesh decimated_mesh(const Mesh& mesh, const CellMap& map, const drawing::Ma
 
 ShownMesh shown_mesh(const Mesh& mesh, const CellMap& map, const drawing::MapScale& scale,
                      size_t most_faces) {
-  return mesh.faces.size() <= most_faces
-             ? mesh_of_cells(mesh, shown_cells(mesh, map, scale, most_faces))
-             : decimated_mesh(mesh, map, scale, most_faces);
+  ShownMesh shown = mesh.faces.size() <= most_faces
+                        ? mesh_of_cells(mesh, shown_cells(mesh, map, scale, most_faces))
+                        : decimated_mesh(mesh, map, scale, most_faces);
+  if (!mesh.are_points || !(shown.place.size > 0)) return shown;
+  const double fewer =
+      static_cast<double>(mesh.faces.size()) / static_cast<double>(shown.faces.size());
+  shown.spacing = drawing::spacing_of(mesh) * std::sqrt(fewer) / shown.place.size;
+  return shown;
 }
 
 }  // namespace vkh

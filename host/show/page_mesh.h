@@ -41,10 +41,12 @@ struct ShownMesh {
   std::vector<glm::uvec3> faces = {};
   std::vector<ShownValue> values = {};  ///< one per face
   bool is_decimated = false;
+  double spacing = 0;  ///< of the shown points, in units of `place`; 0: there are faces
 };
 
 /// The cells of a map, or if even the faces are more than `most_faces`, fewer faces that stand for
-/// all: each is shown by the farthest of what it stands for, and its width covers all of that.
+/// all: each is shown by the farthest of what it stands for, and its width covers all of that, but
+/// for what is left out beside something that is not. Points are faces of one place each.
 ShownMesh shown_mesh(const Mesh& mesh, const CellMap& map, const drawing::MapScale& scale,
                      size_t most_faces);
 
@@ -57,7 +59,7 @@ bool can_deflate();
 /// three of distances, by corners, as shares of `unit`: of a float its sign, and above that the
 /// upper 23 bits of what follows it; less the one before at the same vertex, or else before;
 /// two of the faces' widths, the upper 16 bits of such a float, rounded up, less the one before;
-/// one of flags, by faces: 1 for hatched, 2 for sideless.
+/// one of flags, by faces: 1 for hatched, 2 for sideless, 4 for left out.
 struct PackedMesh {
   size_t vertices = 0, faces = 0;
   double unit = 1;    ///< in the files' units

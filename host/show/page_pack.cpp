@@ -112,7 +112,8 @@ std::vector<uint32_t> widths_of(const ShownMesh& shown, double unit) {
 std::vector<uint32_t> flags_of(const ShownMesh& shown) {
   std::vector<uint32_t> flags;
   for (const ShownValue& value : shown.values)
-    flags.push_back((value.is_hatched ? 1u : 0u) | (value.is_sideless ? 2u : 0u));
+    flags.push_back((value.is_hatched ? 1u : 0u) | (value.is_sideless ? 2u : 0u) |
+                    (value.is_left_out ? 4u : 0u));
   return flags;
 }
 

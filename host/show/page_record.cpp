@@ -112,9 +112,17 @@ Json input_rows(const PageText& page) {
       page, rows, "SHA-256",
       [](const Json& input) { return text_or(input["sha256"], "not known"); }, true);
   add_row(page, rows, "other files read", files_beneath_text, true);
-  add_count(page, rows, "faces", "faces", true);
+  for (const bool are_points : {false, true}) {
+    add_row(page, rows, are_points ? "points" : "faces", [&](const Json& input) {
+      return input.value("points", false) == are_points ? count_text(input["faces"]) : "";
+    });
+  }
   add_count(page, rows, "vertices", "vertices", true);
-  add_count(page, rows, "faces without area", "degenerate", false);
+  add_row(page, rows, "faces without area", [](const Json& input) {
+    const Json& number = input["degenerate"];
+    const bool has_some = !input.value("points", false) && number.is_number() && number != 0;
+    return has_some ? count_text(number) : std::string();
+  });
   add_count(page, rows, "faces that are twice", "duplicate", false);
   add_count(page, rows, "polygons split", "polygons", false);
   add_count(page, rows, "unused vertices", "unreferenced", false);

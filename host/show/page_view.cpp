@@ -49,17 +49,26 @@ std::string percent_of(double share) {
   return number_text(100 * share, std::chars_format::fixed, 2) + " %";
 }
 
-Json band_row(const Answer& answer, const AreaWithin& band) {
-  Json row = named("area within " + band_text(answer, band),
-                   share_text(band.share, asked_share(answer, band)));
+Json band_row(const Answer& answer, const AreaWithin& band, bool are_points) {
+  Json row =
+      named(std::string(are_points ? "points" : "area") + " within " + band_text(answer, band),
+            share_text(band.share, asked_share(answer, band)));
   row["is_limit"] = is_limit(answer, band);
   const bool is_range = band.share.upper - band.share.lower >= 2e-4;
   row["estimate"] = is_range && band.share.estimate ? percent_of(*band.share.estimate) : "";
   return row;
 }
 
-std::string percentile_name(const Percentile& p) {
-  return shortest_decimal(100 * p.share) + " % of the area is within";
+std::string percentile_name(const Percentile& p, bool are_points) {
+  return shortest_decimal(100 * p.share) +
+         (are_points ? " % of the points are within" : " % of the area is within");
+}
+
+// What --max-distance leaves out of all that follows.
+Json left_out_row(const Answer& answer, const Statistics& s) {
+  const Enclosure rest{1 - s.kept->upper, 1 - s.kept->lower};
+  return named("left out, farther than " + length_text(answer, {s.max_distance, s.max_distance}),
+               share_text(rest) + (s.points > 0 ? " of the points" : " of the area"));
 }
 
 void add_side_rows(const Answer& answer, const SignedFigures& sides, Json& rows) {
@@ -78,11 +87,14 @@ Json figure_rows(const Answer& answer, bool back, const Statistics* statistics) 
   rows.push_back(named("largest deviation", length_text(answer, deviation_of(answer, r))));
   if (const SignedFigures* sides = sides_of(answer, back)) add_side_rows(answer, *sides, rows);
   if (!statistics) return rows;
+  const bool are_points = statistics->points > 0;
+  if (statistics->kept) rows.push_back(left_out_row(answer, *statistics));
   rows.push_back(length_row(answer, "mean deviation", statistics->mean));
   rows.push_back(length_row(answer, "root mean square", statistics->rms));
   for (const Percentile& p : statistics->percentiles)
-    rows.push_back(length_row(answer, percentile_name(p), p.distance));
-  for (const AreaWithin& band : statistics->bands) rows.push_back(band_row(answer, band));
+    rows.push_back(length_row(answer, percentile_name(p, are_points), p.distance));
+  for (const AreaWithin& band : statistics->bands)
+    rows.push_back(band_row(answer, band, are_points));
   return rows;
 }
 
@@ -100,7 +112,8 @@ glm::dvec3 normal_of(const Mesh& mesh, size_t face) {
 Json place_view(const Answer& answer, const Picture& drawn, const MapPlace& place, size_t number) {
   const std::string key = std::to_string(number);
   const std::string length = place_text(drawn, place), known = length_text(answer, place.known);
-  const std::string face = "face " + std::to_string(drawn.mesh.file_faces.of(place.face));
+  const std::string face = (drawn.mesh.are_points ? "point " : "face ") +
+                           std::to_string(drawn.mesh.file_faces.of(place.face));
   return {{"key", key},
           {"where", point_text(place.point, drawing::diagonal_of(drawn.mesh))},
           {"length", length},
@@ -246,7 +259,8 @@ Json scale_json(const MapScale& scale) {
           {"to", palette.to},
           {"bands", palette.bands},
           {"colours", text(palette.below) + text(palette.within) + text(palette.above)},
-          {"outside", hex_of(drawing::kBelow) + hex_of(drawing::kOver) + hex_of(drawing::kNoSide)}};
+          {"outside", hex_of(drawing::kBelow) + hex_of(drawing::kOver) + hex_of(drawing::kNoSide) +
+                          hex_of(drawing::kLeftOut)}};
 }
 
 }  // namespace vkh

@@ -99,8 +99,10 @@ std::string failed_sentence(const Answer& answer, bool back) {
 std::string area_sentence(const Answer& answer) {
   const bool back =
       answer.b_to_a && share_within(answer, true).lower < share_within(answer, false).lower;
-  return share_text(share_within(answer, back), *answer.max->area) + " of the area of " +
-         from_of(back) + " is within " + limit_text(answer) + " of " + other_of(back) +
+  const bool are_points = answer.inputs[back ? 1 : 0].are_points;
+  return share_text(share_within(answer, back), *answer.max->area) +
+         (are_points ? " of the points of " : " of the area of ") + from_of(back) + " is within " +
+         limit_text(answer) + " of " + other_of(back) +
          ". Asked for: " + answer.max->area_requested + ".";
 }
 

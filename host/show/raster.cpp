@@ -132,7 +132,7 @@ constexpr VkVertexInputBindingDescription kBinding{0, sizeof(Corner), VK_VERTEX_
 constexpr std::array<VkVertexInputAttributeDescription, 4> kInputs{
     {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Corner, x)},
      {1, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Corner, colour)},
-     {2, 0, VK_FORMAT_R8G8_UINT, offsetof(Corner, hatched)},
+     {2, 0, VK_FORMAT_R8G8B8A8_UINT, offsetof(Corner, hatched)},
      {3, 0, VK_FORMAT_R32_SFLOAT, offsetof(Corner, share)}}};
 
 /// All of a pipeline's state but shaders, layout and pass. Both sides of a face are drawn.

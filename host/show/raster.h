@@ -13,10 +13,13 @@ namespace vkh::drawing {
 
 /// One corner of a face, as mesh.vert reads it.
 struct Corner {
-  float x, y, z;      ///< in Vulkan's clip space
-  float share;        ///< of the bar, with `by_share`
-  uint8_t colour[4];  ///< the last: the darkness of the face's edges; the first by share: the light
-  uint8_t hatched, by_share, pad[2];
+  float x = 0, y = 0, z = 0;  ///< in Vulkan's clip space
+  float share = 0;            ///< of the bar, with `by_share`
+  uint8_t colour[4] =
+      {};  ///< the last: the darkness of the face's edges; the first by share: the light
+  uint8_t hatched = 0, by_share = 0;
+  uint8_t is_disc = 0;  ///< the circle inscribed in the face is drawn
+  uint8_t pad = 0;
 };
 
 /// Writes the corners of `face_count` faces; one that is not to be seen has three times the same.

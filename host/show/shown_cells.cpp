@@ -126,7 +126,9 @@ class Halvings {
     value.width += (value.width + std::abs(middle)) * kRounding;
     value.is_sideless = x.is_sideless;
     value.is_hatched = both.unresolved > both.area / 2;
-    const double seen = is_alike ? off : std::max(off, scale_.length());
+    value.is_left_out = x.is_left_out && y.is_left_out;
+    const bool has_same = is_alike && x.is_left_out == y.is_left_out;
+    const double seen = has_same ? (value.is_left_out ? 0 : off) : std::max(off, scale_.length());
     const double cost = seen > unseen_ ? seen * both.area : 0;
     both.cost = std::max({cost, first.cost, second.cost});
     return both;
@@ -188,7 +190,8 @@ ShownValue shown_value(const CellMap& map, const MapScale& scale, const MapCell&
   const double upper = map.around(static_cast<double>(most), static_cast<double>(cell.width)).upper;
   ShownValue value{.width = upper - farthest + upper * kRounding,
                    .is_hatched = scale.is_unresolved(cell),
-                   .is_sideless = scale.is_without_side(cell)};
+                   .is_sideless = scale.is_without_side(cell),
+                   .is_left_out = scale.is_left_out(cell)};
   for (size_t i = 0; i < 3; ++i)
     value.at[i] = value.is_sideless ? static_cast<double>(cell.estimate[i]) * map.unit
                                     : scale.distance_at(cell, i);

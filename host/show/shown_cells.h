@@ -19,6 +19,7 @@ struct ShownValue {
   double width = 0;          ///< no distance of the part is farther from what is shown there
   bool is_hatched = false;   ///< more than half of its area is not resolved
   bool is_sideless = false;  ///< a map has sides, and none for it: `at` is without a sign
+  bool is_left_out = false;  ///< CellMap::is_left_out
 };
 
 /// The shown values of a cell of a map.

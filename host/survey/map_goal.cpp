@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/base/parallel.h"
 #include "host/survey/cell_corners.h"
+#include "vkhausdorff/length.h"
 
 namespace vkh {
 namespace {
@@ -63,12 +65,17 @@ class Percentile99 {
   std::vector<uint64_t> area_;
 };
 
+// The percentile of what is not farther than `most`, in the frame.
 template <class Distance>
-double percentile_99(const CellStore& store, const Areas& areas, const Distance& distance) {
+double percentile_99(const CellStore& store, const Areas& areas, double most,
+                     const Distance& distance) {
   std::vector<Percentile99> blocks(block_count(store.count()));
   for_each_block(store.count(), [&](size_t block, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i)
-      blocks[block].add(distance(i), store.share(i) * areas.of_face[store.face(i)] / areas.whole);
+    for (size_t i = begin; i < end; ++i) {
+      const double at = distance(i);
+      if (at <= most)
+        blocks[block].add(at, store.share(i) * areas.of_face[store.face(i)] / areas.whole);
+    }
   });
   Percentile99 all;
   for (const Percentile99& block : blocks) all.add(block);
@@ -81,29 +88,36 @@ double least_area(const SurveyedPair& pair, const Areas& areas, const MapOptions
   return pixel * pixel / 2;
 }
 
+// The distance beyond which a map leaves cells out, in the frame.
+double most_of(const SurveyOptions& options, const SurveyedPair& pair) {
+  return options.max_distance ? pair.frame.to_frame(typed_length(*options.max_distance))
+                              : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 std::optional<Goal> map_goal(const SurveyOptions& options, const SurveyedPair& pair,
                              const Areas& areas) {
-  if (!options.map || !areas.is_positive()) return {};
+  if (!options.map || pair.a.are_points || !areas.is_positive()) return {};
+  const double most = most_of(options, pair);
   const double least = least_area(pair, areas, *options.map), floor = least_width(pair);
   std::optional<double> bar;
   if (options.map->bar) bar = pair.frame.to_frame(*options.map->bar);
-  return [&areas, bar, least, floor](const CellStore& store) {
-    const double end =
-        bar ? *bar
-            : percentile_99(store, areas, [&](size_t i) { return middle_of(store.bounds(i)); });
+  return [&areas, bar, most, least, floor](const CellStore& store) {
+    const auto middle = [&](size_t i) { return middle_of(store.bounds(i)); };
+    const double end = bar ? *bar : percentile_99(store, areas, most, middle);
     const double step = std::max(CellMap::kUnresolved * end, floor);
     return scored(store, [&](size_t i) -> std::optional<double> {
       const double over = widest(store.bounds(i)) - step;
       const double area = store.share(i) * areas.of_face[store.face(i)];
       if (over <= 0 || area <= least) return std::nullopt;
+      if (static_cast<double>(lowest(store.bounds(i))) > most) return std::nullopt;
       return over * area;
     });
   };
 }
 
-CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const MapOptions& options,
+CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const SurveyOptions& options,
                const Estimates& estimates) {
   const CellStore& store = surface.store;
   const Areas& areas = surface.areas;
@@ -111,9 +125,10 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const MapO
   map.unit = pair.frame.length_down(1);
   map.least = least_width(pair);
   map.slack = pair.frame.length_up(pair.displacement);
-  map.bar = options.bar ? *options.bar : map.unit * percentile_99(store, areas, [&](size_t i) {
-                                           return static_cast<double>(estimates.of(i).mean);
-                                         });
+  if (options.max_distance) map.max_distance = typed_length(*options.max_distance);
+  const auto mean = [&](size_t i) { return static_cast<double>(estimates.of(i).mean); };
+  map.bar = options.map->bar ? *options.map->bar
+                             : map.unit * percentile_99(store, areas, most_of(options, pair), mean);
   map.cells.resize(store.count());
   for_each_block(store.count(), [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {

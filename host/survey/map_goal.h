@@ -9,13 +9,14 @@
 
 namespace vkh {
 
-/// A cell scores if it is larger than a pixel and unresolved. None unless a
-/// map is asked for and A has an area. All arguments must outlive it.
+/// A cell scores if it is larger than a pixel, unresolved and not left out. None unless a map is
+/// asked for and A has an area; none for points, which no split divides. All arguments must outlive
+/// it.
 std::optional<Goal> map_goal(const SurveyOptions& options, const SurveyedPair& pair,
                              const Areas& areas);
 
-/// The map of all cells. A has an area.
-CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const MapOptions& options,
+/// The map of all cells, which `options` ask for. A has an area, or is points.
+CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const SurveyOptions& options,
                const Estimates& estimates);
 /// Adds the sides of the survey's cells, in their order, to a map of all of them.
 void add_sides(std::span<const CellSide> sides, CellMap& map);

@@ -330,7 +330,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
       const SurveyedArea surface{whole->cells(), whole->areas(), percentiles};
       if (options.statistics)
         result.statistics = statistics_of(surface, pair, options, whole->estimates());
-      if (options.map) result.map = map_of(surface, pair, *options.map, whole->estimates());
+      if (options.map) result.map = map_of(surface, pair, options, whole->estimates());
       if (result.map && sided) add_sides(sided->of(whole->cells()), *result.map);
       if (options.keeps_distribution && result.statistics) result.distribution = whole;
     }

@@ -267,7 +267,8 @@ class Points(unittest.TestCase):
                 true = kept[min(math.ceil(one["share"] * len(kept) - 1e-9), len(kept)) - 1]
                 self.assertLessEqual(one["distance"]["lower"], true + 1e-12)
                 self.assertGreaterEqual(one["distance"]["upper"], true - 1e-12)
-        for words, what in ((["--stats", "--signed"], "no --area"), ([], "ask for --stats or --bands"), (["--stats", "--image", "x.png"], "no --area")):
+        for words, what in ((["--stats", "--signed"], "no --area, no sides"), ([], "ask for --stats, --bands, --image or --report"),
+                            (["--image", "x.png", "--field-by", "faces"], "leave out --field-by")):
             done = self.run_here(PROGRAM, "distance", "a.ply", "b.ply", "--points", "a", "--max-distance", "1abs", *words)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(what, done.stderr)
@@ -303,6 +304,78 @@ class Points(unittest.TestCase):
         signed = self.ask("gate", "a.xyz", "b.ply", "--points", "a", "--max=+0.6abs,-0.01abs")
         self.assertEqual(signed["verdict"], "pass")
 
+    def pages_data(self, name):
+        """The text of a page, and what its viewer reads."""
+        page = (self.folder / name).read_text()
+        return page, json.loads(page.split('<script type="application/json" id="data">')[1].split("</script>")[0])
+
+    def test_pictures_and_pages_of_points(self):
+        rng = random.Random(45)
+        heights = [rng.uniform(0, 0.5) for _ in range(300)] + [30.0] * 100
+        self.write("scan.ply", ply([(rng.uniform(-2, 2), rng.uniform(-2, 2), h) for h in heights]))
+        self.write("part.ply", ply([(-9, -9, 0), (9, -9, 0), (0, 9, 0)], [(0, 1, 2)]))
+        words = ["scan.ply", "part.ply", "--points", "a", "--unit", "mm", "--symmetric", "--size", "640x400", "--tol", "1e-3mm", "--effort", "20000"]
+        self.ask("distance", *words, "--image", "all.png", "--report", "all.html", "--points-out", "all.csv", "--figures-csv", "figures.csv", codes=(0, 3))
+        page, data = self.pages_data("all.html")
+        self.assertEqual([side["of"] for side in data["sides"]], ["points of A", "area of B"])
+        self.assertEqual([side["mesh"]["faces"] for side in data["sides"]][0], 400)
+        self.assertGreater(data["sides"][0]["mesh"]["spacing"], 0)
+        self.assertEqual(data["sides"][1]["mesh"]["spacing"], 0)
+        self.assertIn("% of the points are within", page)
+        self.assertIn("% of the area is within", page)
+        places = (self.folder / "all.csv").read_text().splitlines()
+        self.assertAlmostEqual(float(places[1].split(",")[5]), 30, 3)
+        self.assertGreaterEqual(int(places[1].split(",")[8]), 300)  # the point's number
+        # Without the strays: the bar ends at what is left, they have no place, and their share is told.
+        self.ask("distance", *words, "--max-distance", "1mm", "--image", "near.png", "--report", "near.html", "--points-out", "near.csv", codes=(0, 3))
+        page, data = self.pages_data("near.html")
+        self.assertLess(data["sides"][0]["scale"]["high"], 0.6)
+        self.assertIn("left out, over 1 mm: 25 % of the points", page)
+        self.assertRegex(page, r"left out, farther than 1 mm</th><td>(24\.99 to )?25(\.0[01])? % of the points")
+        self.assertIn("30", (self.folder / "near.csv").read_text().split("deviation")[0] + page)  # the largest deviation is of all
+        rows = [row.split(",") for row in (self.folder / "near.csv").read_text().splitlines()[1:]]
+        self.assertLess(max(float(row[5]) for row in rows if row[0] == "A"), 1)
+
+    def test_a_batch_draws_points(self):
+        self.write("near.ply", ply([(0.1 * i, 0.2, 0.01 * i) for i in range(9)] + [(0, 0, 40)]))
+        self.write("part.ply", ply([(-9, -9, 0), (9, -9, 0), (0, 9, 0)], [(0, 1, 2)]))
+        self.write("draw.csv", b"id,a,b,points\n1,near.ply,part.ply,a\n2,part.ply,part.ply,\n")
+        words = ["batch", "draw.csv", "--out", "draw.jsonl", "--image-dir", "pictures", "--report-dir", "pages", "--size", "640x400"]
+        done = self.run_here(PROGRAM, *words, "--max-distance", "1abs")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("left out, over 1: 10 % of the points", (self.folder / "pages" / "1.html").read_text())
+        self.assertIn("left out, farther than 1</th><td>0 % of the area", (self.folder / "pages" / "2.html").read_text())
+        first = (self.folder / "pictures" / "1.png").read_bytes()
+        # Another distance is another picture: the old one is no answer to it.
+        done = self.run_here(PROGRAM, *words, "--resume")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertNotEqual((self.folder / "pictures" / "1.png").read_bytes(), first)
+        self.assertNotIn("left out", (self.folder / "pages" / "1.html").read_text().split("<script>")[0])
+        done = self.run_here(PROGRAM, "batch", "draw.csv", "--out", "none.jsonl", "--max-distance", "1abs")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--image-dir or --report-dir", done.stderr)
+
+    def test_points_without_the_option_are_told_of_it(self):
+        self.write("part.ply", ply([(-9, -9, 0), (9, -9, 0), (0, 9, 0)], [(0, 1, 2)]))
+        self.write("vertices.ply", ply([(0, 0, 1), (1, 0, 1)]))
+        rows = b"0 0 1\n1 0 1\n"
+        for name in ("rows.xyz", "rows.txt", "rows", "rows.pts"):
+            self.write(name, rows)
+        self.write("rows.csv", b"0,0,1\n1,0,1\n")
+        self.write("scan.las", las([(0, 0, 1)], (1, 1, 1), (0, 0, 0)))
+        self.write("v.obj", b"v 0 0 1\nv 1 0 1\n")
+        for name in ("vertices.ply", "rows.xyz", "rows.txt", "rows", "rows.pts", "rows.csv", "scan.las", "v.obj"):
+            for pair in ((name, "part.ply"), ("part.ply", name)):
+                done = self.run_here(PROGRAM, "distance", *pair)
+                self.assertEqual(done.returncode, 4, (pair, done.stderr))
+                self.assertIn("--points a to measure the points; b if it is the second file", done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for name in ("rows.txt", "rows"):
+            self.assertEqual(self.ask("distance", name, "part.ply", "--points", "a")["inputs"][0]["faces"], 2)
+        done = self.run_here(PROGRAM, "distance", "rows.csv", "part.ply", "--points", "a")
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("rows.csv: line 1: ", done.stderr)
+
     def test_what_is_no_question_is_refused(self):
         self.write("a.ply", ply([(0, 0, 0), (1, 0, 1)]))
         self.write("b.ply", ply([(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(0, 1, 2)]))
@@ -313,8 +386,6 @@ class Points(unittest.TestCase):
                 (["distance", "a.ply", "b.ply", "--points", "c"], 2, "expected a, b or both"),
                 (["distance", "b.ply", "a.ply", "--points", "b", "--signed"], 2, "--signed: a.ply is points, which have no sides"),
                 (["distance", "a.ply", "b.ply", "--points", "a", "--symmetric", "--signed"], 2, "which have no sides"),
-                (["distance", "a.ply", "b.ply", "--points", "a", "--image", "x.png"], 2, "--points: pictures and pages draw surfaces"),
-                (["distance", "b.ply", "a.ply", "--points", "b", "--symmetric", "--report", "x.html"], 2, "draw surfaces"),
                 (["distance", "a.ply", "b.ply", "--points", "a", "--field", "x.glb"], 2, "written as .ply"),
                 (["gate", "a.ply", "b.ply", "--points", "a", "--max", "1abs", "--face-max", "b.ply"], 2, "which have no faces")):
             done = self.run_here(PROGRAM, *words)

@@ -280,6 +280,100 @@ TEST_CASE("six views leave out those that see a line") {
   CHECK(Views(picture, options, 1).panels_in({0, 0, 1000, 800}).size() == 6);
 }
 
+/// Points in a plane, `along` a side and so far apart.
+Mesh grid_of_points(uint32_t along, double apart) {
+  std::vector<DVec3> points;
+  for (uint32_t i = 0; i < along; ++i) {
+    for (uint32_t j = 0; j < along; ++j) points.emplace_back(apart * i, apart * j, 0);
+  }
+  return make_points("points", points);
+}
+
+TEST_CASE("the spacing of points is that of their surface, however many there are") {
+  for (const uint32_t along : {20u, 60u, 300u, 1300u}) {
+    for (const double apart : {1e-3, 7.0}) {
+      const double found = spacing_of(grid_of_points(along, apart));
+      CHECK(found > 0.7 * apart);
+      CHECK(found < 1.5 * apart);
+    }
+  }
+  CHECK(spacing_of(sheet(4)) == 0);
+  CHECK(spacing_of(make_points("one", {{1, 2, 3}})) >= 0);
+}
+
+TEST_CASE("a point is a disc in the colour of its distance, and discs hide what is behind them") {
+  Drawn drawn([](const glm::dvec3&) { return 0; });
+  drawn.mesh = grid_of_points(9, 1);
+  drawn.mesh.vertices.emplace_back(4, 4, -1);  // behind the one in the middle
+  drawn.mesh = make_points("points", drawn.mesh.vertices);
+  drawn.map = map_of_faces(drawn.mesh, [](const glm::dvec3& p) { return p.z < 0 ? 0.05 : 0.25; });
+  drawn.field.lower.assign(drawn.mesh.faces.size(), 0);
+  drawn.field.upper.assign(drawn.mesh.faces.size(), 1);
+  const MapScale scale(drawn.picture, drawn.options);
+  const auto shade = [](Rgb c) { return static_cast<int>(c.red) + c.green + c.blue; };
+  const auto count = [&](double distance) {
+    const Image all = drawn.image();
+    size_t found = 0;
+    const Rgb colour = scale.colour(distance);
+    for (size_t at = 0; at < all.rgba.size();
+         at += 4) {  // as dark as its rim and its depth make it
+      const double light =
+          (all.rgba[at] + all.rgba[at + 1] + all.rgba[at + 2]) / static_cast<double>(shade(colour));
+      const auto is_near = [&](uint8_t x, uint8_t y) { return std::abs(x - light * y) <= 4; };
+      const uint32_t x = static_cast<uint32_t>(at / 4) % all.width;
+      found += x < all.width / 2 && light < 1.01 && light > 0.5 &&
+               is_near(all.rgba[at], colour.red) && is_near(all.rgba[at + 1], colour.green) &&
+               is_near(all.rgba[at + 2], colour.blue);
+    }
+    return found;
+  };
+  const size_t of_one = count(0.25) / 81;
+  CHECK(of_one > 40);
+  CHECK(count(0.05) < of_one / 4);  // hidden
+  drawn.options.view = parse_view("--view", "0,0,-1");
+  CHECK(count(0.05) > of_one / 2);
+  const Area area{0, 0, 1000, 800};
+  const auto is_seen_from = [&](const char* view, glm::dvec3 point) {
+    PictureOptions options;
+    options.view = parse_view("--view", view);
+    return is_seen(drawn.mesh, Views(drawn.picture, options, 1).panels_in(area)[0].camera, point);
+  };
+  drawn.mesh.vertices.back().z = -8;
+  CHECK(!is_seen_from("0,0,1", {4, 4, -8}));
+  CHECK(is_seen_from("0,0,1", {4, 4, 0}));
+  CHECK(is_seen_from("0,0,-1", {4, 4, -8}));
+}
+
+TEST_CASE("what is left out is grey, is counted, and has no place") {
+  Drawn drawn([](const glm::dvec3&) { return 0.2; });
+  for (MapCell& cell : drawn.map.cells) {
+    const glm::uvec3 f = drawn.mesh.faces[cell.face];
+    const auto& v = drawn.mesh.vertices;
+    if (std::min({v[f.x].x, v[f.y].x, v[f.z].x}) >= 4) cell.estimate = {3, 3, 3};
+  }
+  drawn.picture.interval = {3.5, 3.5};
+  drawn.picture.witness = Witness{{0, {1, 0, 0}, {8, 8, 0}}, {0, {}, {8, 8, -3}}, {3.5, 3.5}};
+  drawn.map.max_distance = 2;
+  const MapScale scale(drawn.picture, drawn.options);
+  CHECK(drawn.count(kLeftOut) > 5000);
+  CHECK(drawn.count(kOver) == 0);
+  const MapCounts counts = counts_of(drawn.map, scale);
+  CHECK(counts.left_out == doctest::Approx(0.5));
+  CHECK(counts.above == 0);
+  CHECK(counts.within == doctest::Approx(1));
+  CHECK(counts.mean == doctest::Approx(0.2));
+  const auto rows = legend_rows(drawn.picture, scale, counts);
+  REQUIRE(!rows.empty());
+  const bool says = std::any_of(rows.begin(), rows.end(), [](const LegendRow& row) {
+    return row.text.starts_with("left out, over 2: ") && row.text.ends_with(" of the area");
+  });
+  CHECK(says);
+  REQUIRE(!worst_places(drawn.picture).empty());
+  for (const MapPlace& place : worst_places(drawn.picture)) CHECK(place.distance < 0.3);
+  drawn.map.max_distance.reset();
+  CHECK(worst_places(drawn.picture).front().point.x == 8);
+}
+
 TEST_CASE("shares are printed for people") {
   CHECK(percent_text(0) == "0 %");
   CHECK(percent_text(1e-6) == "under 0.01 %");

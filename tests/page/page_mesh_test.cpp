@@ -166,6 +166,47 @@ TEST_CASE("a part without a side is on either side of B where it is shown with o
   CHECK(mixed > 0);
 }
 
+TEST_CASE("what is left out beside something that is not hides it nowhere") {
+  Mapped of = mapped(vkh::test::square_patch(3, 0), 400);
+  of.map.max_distance = 0.5;
+  for (size_t i = 0; i < of.map.cells.size(); ++i) {
+    const float at = i % 3 == 0 ? 4.0f : 0.25f;
+    of.map.cells[i].estimate = {at, at, at};
+  }
+  std::vector<int> kept(of.mesh.faces.size()), left_out(of.mesh.faces.size());
+  for (const vkh::MapCell& cell : of.map.cells)
+    ++(of.map.is_left_out(cell) ? left_out : kept)[cell.face];
+  for (const auto& cell : vkh::shown_cells(of.mesh, of.map, of.scale(), 1))
+    CHECK(cell.value.is_left_out == (kept[cell.face] == 0));
+}
+
+TEST_CASE("fewer points are as far as the farthest of what they stand for") {
+  vkh::test::Random random(12);
+  std::vector<vkh::DVec3> points;
+  for (int i = 0; i < 4000; ++i) points.push_back(random.in_cube(1));
+  Mapped of = mapped(vkh::make_points("points", points), 0);
+  of.map.max_distance = 0.6;
+  of.map.cells[17].estimate = {9, 9, 9};
+  for (const size_t most : {size_t{1}, size_t{300}, size_t{5000}}) {
+    const vkh::ShownMesh shown = vkh::shown_mesh(of.mesh, of.map, of.scale(), most);
+    CHECK(shown.faces.size() <= std::min<size_t>(most, 4000));
+    CHECK(shown.faces.size() * 3 >= std::min<size_t>(most, 4000));
+    CHECK(shown.spacing > 0);
+    double farthest = 0, of_all = 0;
+    for (size_t f = 0; f < shown.faces.size(); ++f) {
+      CHECK(shown.faces[f].x == shown.faces[f].z);
+      if (!shown.values[f].is_left_out) farthest = std::max(farthest, shown.values[f].at[0]);
+    }
+    for (const vkh::MapCell& cell : of.map.cells) {
+      if (!of.map.is_left_out(cell))
+        of_all = std::max({of_all, static_cast<double>(cell.estimate[0]),
+                           static_cast<double>(cell.estimate[1]),
+                           static_cast<double>(cell.estimate[2])});
+    }
+    CHECK(farthest == of_all);
+  }
+}
+
 void check_stands_for(const Mesh& mesh, size_t most) {
   const Mapped of = mapped(mesh, mesh.faces.size() / 4);
   const vkh::Shown few = vkh::shown_of(mesh, most);

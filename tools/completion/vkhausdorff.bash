@@ -34,7 +34,7 @@ _vkhausdorff() {
     metrics) options="$search $files --save-transform --percentile --bands --tol --effort --json --verbose --verify" ;;
     batch)
       options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed --metrics --percentile --bands $files"
-      options+=" --image-dir --report-dir --effort $look --together --lanes --read-ahead" ;;
+      options+=" --image-dir --report-dir --effort --max-distance $look --together --lanes --read-ahead" ;;
     simplify) options="$search --json --max --out --one-way --lock-borders --levels --ratio --certificate --unit --max-input --polygons --bodies" ;;
     merge) options="$tables --list --reproducible --help --help-all" ;;
     demo) options="$search $outputs" ;;

@@ -19,38 +19,48 @@ struct MapOptions {
   std::optional<double> bar = {};
 };
 
-/// A part of a face of A. The drawn distance is affine over it, with these values at its corners:
-/// it is off by `width` at most, anywhere on the cell.
+/// A part of a face of A, or one of its points. The drawn distance is affine over it, with these
+/// values at its corners: it is off by `width` at most, anywhere on the cell.
 struct MapCell {
   std::array<uint32_t, 4> corners{};  ///< as gpu::Cell has them; see weights_of()
   uint32_t face = 0;
   std::array<float, 3> estimate{};  ///< in CellMap::unit
   float width = 0;                  ///< in CellMap::unit
-  float share = 0;                  ///< of A's area
+  float share = 0;                  ///< of A's area, or of its points
   SurfaceSide side = SurfaceSide::kUnsigned;
 };
 
 /// The barycentrics, on its face, of each corner of a cell.
 std::array<glm::dvec3, 3> weights_of(const MapCell& cell);
 
-/// Cells that tile the faces of A that have an area.
+/// Cells that tile the faces of A that have an area; if A is points, one for each of them.
 struct CellMap {
   /// A cell is unresolved if its width is over a twentieth of the bar.
   static constexpr double kUnresolved = 0.05;
 
   double unit = 1;  ///< the length of an estimate of 1, in the files' units
   /// The end of the colours, in the files' units: MapOptions::bar, or the distance that 99 % of A's
-  /// area is probably within.
+  /// area is probably within, without what is left out.
   double bar = 0;
   double least = 0;  ///< widths up to that, in `unit`, are what floats leave
   double slack = 0;  ///< how far storing coordinates moves a distance, in the files' units
   bool has_sides = false;
+  /// SurveyOptions::max_distance, in the files' units: cells that are probably farther are left
+  /// out.
+  std::optional<double> max_distance = {};
   std::vector<MapCell> cells;
 
   /// Encloses the distance of a point of a cell of that width, where `estimate` is drawn; both are
   /// in `unit`, and the enclosure in the files' units.
   Enclosure around(double estimate, double width) const;
 
+  /// Whether a cell is left out, by the mean of its estimates.
+  bool is_left_out(const MapCell& cell) const {
+    const double sum = static_cast<double>(cell.estimate[0]) +
+                       static_cast<double>(cell.estimate[1]) +
+                       static_cast<double>(cell.estimate[2]);
+    return max_distance && sum / 3 * unit > *max_distance;
+  }
   /// Whether the colours of a cell say less than they seem to, with a bar of that end.
   bool is_unresolved(const MapCell& cell, double end) const {
     return static_cast<double>(cell.width) > least &&

@@ -59,8 +59,8 @@ struct SurveyOptions {
   /// The share of A's area that may be undecided in each of `bands`.
   double area_tolerance = 0.001;
   std::vector<double> bands;  ///< distances, in the files' units
-  /// If set: figures are of the part of A within it alone, which Statistics::kept is. The field,
-  /// and the distance itself, are of all of A.
+  /// If set: figures and the map are of the part of A within it alone: Statistics::kept, and
+  /// CellMap::max_distance. The field, and the distance itself, are of all of A.
   std::optional<Limit> max_distance = {};
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};

@@ -123,7 +123,7 @@ class Page {
     findAll('[data-direction]').forEach((button) => button.setAttribute('aria-pressed', Number(button.dataset.direction) === index));
     findAll('.way').forEach((way) => way.classList.toggle('other', this.view !== undefined && Number(way.dataset.side) !== index));
     findAll('.legend').forEach((legend) => (legend.hidden = Number(legend.dataset.side) !== index));
-    findAll('.tally-mesh').forEach((name) => (name.textContent = side.from));
+    findAll('.tally-of').forEach((name) => (name.textContent = side.of));
     find('caption').textContent = this.view ? side.caption : '';
     find('chart-legend').replaceChildren(...this.legend(side));
     this.setMark(null);
@@ -150,14 +150,14 @@ class Page {
   }
 
   legend(side) {
-    if (!side.curve.length) return ['No share of the area was measured.'];
+    if (!side.curve.length) return ['No shares were measured.'];
     const part = (className, text) => {
       const swatch = document.createElement('i');
       swatch.className = className;
       return [swatch, text];
     };
     const unit = data.unit ? `, ${data.unit}` : '';
-    return [...part('', `area of ${side.from} by deviation${unit}`), ...part('band', 'share of the area within, from and to')];
+    return [...part('', `${side.of} by deviation${unit}`), ...part('band', 'share within, from and to')];
   }
 
   showStep(step) {

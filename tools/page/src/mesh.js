@@ -61,7 +61,8 @@ function readDistances(codes, corners, vertices, unit) {
 }
 
 /// {positions, distances, widths, flags}: three points a face, in units of `frame`, so that both meshes lie as they are; three distances a face, in the
-/// files' unit, and how far they may be off; 1 for a face that is not resolved, 2 for one without a side.
+/// files' unit, and how far they may be off; 1 for a face that is not resolved, 2 for one without a side, 4 for one that is left out. `spacing`: about how far points are apart, in
+/// units of `frame`, or 0; a point is a face whose corners are one.
 export async function readMesh(packed, frame) {
   const read = reader(await bytesOf(packed));
   const corners = undoCorners(read(3 * packed.faces, 3));
@@ -75,5 +76,5 @@ export async function readMesh(packed, frame) {
   for (let corner = 0; corner < 3 * packed.faces; ++corner) {
     for (let axis = 0; axis < 3; ++axis) positions[3 * corner + axis] = points[3 * corners[corner] + axis] * scale + shift[axis];
   }
-  return { positions, distances, widths, flags };
+  return { positions, distances, widths, flags, spacing: packed.spacing * scale * 65535 };
 }

@@ -78,6 +78,6 @@ export function readingText(data, side, mesh, hit) {
   const where = isSigned && low > 0 ? ` over ${side.to}` : isSigned && high < 0 ? ` under ${side.to}` : '';
   const ends = isFinite(width) ? `between ${digits(low, -1)} and ${digits(high, 1)}${unit}` : `at least ${digits(value, -1)}${unit}`;
   const what = side.decimated ? 'farthest about here: ' : '';
-  const more = (flags & 2 && side.scale.signed ? ', side not known' : '') + (flags & 1 ? ', not resolved' : '');
+  const more = (flags & 2 && side.scale.signed ? ', side not known' : '') + (flags & 1 ? ', not resolved' : '') + (flags & 4 ? ', left out' : '');
   return `${what}${plus}${digits(value, 0)}${unit}${where}${more}, ${ends}, at (${point})`;
 }

@@ -1,5 +1,5 @@
 // The view: one mesh in the colours of its distances, drawn to scale when something changed.
-import { BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Mesh, OrthographicCamera, Raycaster, Scene, ShaderMaterial, Sphere,
+import { BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Mesh, OrthographicCamera, Points, Raycaster, Scene, ShaderMaterial, Sphere,
   Vector2, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { shareOf } from './palette.js';
@@ -9,7 +9,9 @@ attribute vec2 look;
 flat varying float flags;
 varying float share;
 varying vec3 place;
+uniform float pointSize;
 void main() {
+  gl_PointSize = pointSize;
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
   place = seen.xyz;
   share = look.x;
@@ -19,7 +21,7 @@ void main() {
 // The colours, the light and the stripes of pictures (host/show/mesh.frag, light.h). The tolerance is a part of the bar, from low to high.
 const FRAGMENT = `
 uniform sampler2D colours;
-uniform float from, to, low, high, bands, stripe;
+uniform float from, to, low, high, bands, stripe, pointSize, reach;
 flat varying float flags;
 varying float share;
 varying vec3 place;
@@ -37,14 +39,24 @@ vec3 barColour(float share) {
   if (x > high) return between(22, 6, (x - high) / max(1.0 - high, 1e-6));
   return between(6, 16, to > from ? (x - from) / (to - from) : 0.0);
 }
-void main() {
+float lightOnFace() {
   vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
   vec3 towards = normalize(vec3(-0.32, 0.42, 0.85));
   float lit = min((1.0 + dot(normal, towards) * sign(normal.z)) / (1.0 + towards.z), 1.0);
-  vec3 colour = flags > 1.5 ? at(30) : barColour(share);
-  colour *= 0.6 + 0.4 * lit * lit;
+  return 0.6 + 0.4 * lit * lit;
+}
+float lightOnPoint() {
+  vec2 off = 2.0 * gl_PointCoord - 1.0;
+  float r = dot(off, off);
+  if (r > 1.0) discard;
+  return (1.0 - 0.3 * r * r) * (0.78 + 0.22 * clamp((place.z + 2.0 * reach) / reach / 2.0 + 1.0, 0.0, 1.0));
+}
+void main() {
+  int flag = int(flags + 0.5);
+  vec3 colour = (flag & 4) != 0 ? at(31) : (flag & 2) != 0 ? at(30) : barColour(share);
+  colour *= pointSize > 0.0 ? lightOnPoint() : lightOnFace();
   bool isStripe = fract((gl_FragCoord.x - gl_FragCoord.y) / (2.0 * stripe)) < 0.42;
-  if (mod(flags, 2.0) > 0.5 && isStripe) colour = vec3(0.29, 0.25, 0.20);
+  if ((flag & 1) != 0 && isStripe) colour = vec3(0.29, 0.25, 0.20);
   gl_FragColor = vec4(colour, 1.0);
 }`;
 
@@ -82,34 +94,44 @@ export class View {
     this.material = new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT, side: DoubleSide,
       uniforms: { colours: { value: null }, from: { value: 0 }, to: { value: 1 }, low: { value: 0 }, high: { value: 1 }, bands: { value: 0 },
-        stripe: { value: 4 * this.renderer.getPixelRatio() } },
+        stripe: { value: 4 * this.renderer.getPixelRatio() }, pointSize: { value: 0 }, reach: { value: 1 } },
     });
     this.mesh = new Mesh(new BufferGeometry(), this.material);
-    this.mesh.frustumCulled = false;
-    this.scene.add(this.mesh);
+    this.points = new Points(new BufferGeometry(), this.material);
+    for (const shown of [this.mesh, this.points]) {
+      shown.frustumCulled = shown.visible = false;
+      this.scene.add(shown);
+    }
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
     canvas.addEventListener('keydown', (event) => this.key(event));
     this.resize();
   }
 
   /// `scale`: the colours of the mesh's distances.
-  setMesh({ positions, distances, flags }, scale) {
-    const looks = new Float32Array(2 * distances.length);
-    distances.forEach((distance, i) => {
-      const flag = flags[Math.floor(i / 3)];
-      looks[2 * i] = Math.min(Math.max(shareOf(scale, distance), -8), 8);
-      looks[2 * i + 1] = flag;
-    });
+  setMesh({ positions, distances, flags, spacing }, scale) {
+    const stride = spacing > 0 ? 3 : 1;  // the corners of a point are one
+    const count = distances.length / stride;
+    const places = spacing > 0 ? new Float32Array(3 * count) : positions;
+    const looks = new Float32Array(2 * count);
+    for (let i = 0; i < count; ++i) {
+      if (spacing > 0) places.set(positions.subarray(9 * i, 9 * i + 3), 3 * i);
+      looks[2 * i] = Math.min(Math.max(shareOf(scale, distances[stride * i]), -8), 8);
+      looks[2 * i + 1] = flags[Math.floor((stride * i) / 3)];
+    }
+    this.spacing = spacing;
+    this.shown = spacing > 0 ? this.points : this.mesh;
+    this.mesh.visible = !(this.points.visible = spacing > 0);
     this.setColours(scale);
     const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(positions, 3));
+    geometry.setAttribute('position', new BufferAttribute(places, 3));
     geometry.setAttribute('look', new BufferAttribute(looks, 2));
     geometry.computeBoundingBox();
     const ball = geometry.boundingBox.getBoundingSphere(new Sphere());
     this.ball = { centre: ball.center, radius: ball.radius || 0.5 };
     geometry.boundingSphere = ball;
-    this.mesh.geometry.dispose();
-    this.mesh.geometry = geometry;
+    this.shown.geometry.dispose();
+    this.shown.geometry = geometry;
+    this.material.uniforms.reach.value = this.ball.radius;
     this.camera.near = 0;
     this.camera.far = this.ball.radius * 8;
     this.controls.minZoom = 0.2;
@@ -163,7 +185,7 @@ export class View {
     const back = direction.clone().normalize();
     const right = new Vector3().crossVectors(this.camera.up, back).normalize();
     const up = new Vector3().crossVectors(back, right);
-    const { min, max } = this.mesh.geometry.boundingBox;
+    const { min, max } = this.shown.geometry.boundingBox;
     const half = new Vector3().subVectors(max, min).multiplyScalar(0.5);
     const extent = (axis) => Math.abs(axis.x) * half.x + Math.abs(axis.y) * half.y + Math.abs(axis.z) * half.z;
     const { right: wide, top: high } = this.camera;
@@ -226,8 +248,16 @@ export class View {
     const at = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
     const ray = new Raycaster();
     ray.setFromCamera(at, this.camera);
-    const [first] = ray.intersectObject(this.mesh);
-    return first ? { face: first.faceIndex, point: first.point.toArray() } : null;
+    ray.params.Points.threshold = (this.discSize() / 2) * this.unitsPerPixel();
+    const [first] = ray.intersectObject(this.shown);
+    if (!first) return null;
+    if (!this.spacing) return { face: first.faceIndex, point: first.point.toArray() };
+    return { face: first.index, point: [...this.shown.geometry.attributes.position.array.subarray(3 * first.index, 3 * first.index + 3)] };
+  }
+
+  /// The diameter of a point's disc in CSS pixels, as pictures have it (host/show/camera.h).
+  discSize() {
+    return this.spacing > 0 ? Math.min(Math.max((1.8 * this.spacing) / this.unitsPerPixel(), 1.4), 24) : 0;
   }
 
   /// The units of the mesh that a CSS pixel is wide.
@@ -279,6 +309,7 @@ export class View {
     this.isWaiting = false;
     if (!this.material.uniforms.colours.value || !this.ball) return;
     this.camera.updateMatrixWorld();
+    this.material.uniforms.pointSize.value = this.discSize() * this.renderer.getPixelRatio();
     this.renderer.render(this.scene, this.camera);
     this.onDrawn?.();
   }
