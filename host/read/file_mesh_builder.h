@@ -13,8 +13,8 @@ namespace vkh {
 
 /// Ends an error about points alone: what was expected, and the option for points.
 inline constexpr const char* kAMesh =
-    "a mesh of triangles (STL, OBJ, PLY), or --points a to measure the points; b if it is the "
-    "second file, both if both are points";
+    "a mesh of triangles (STL, OBJ, PLY); in distance, gate and batch, --points a measures points, "
+    "b those of the second file, both those of both";
 /// Ends an error about faces in a file of points.
 inline constexpr const char* kPointsAlone =
     "points alone; a mesh is measured without --points, which never drops its faces";

@@ -72,8 +72,17 @@ class XyzReader {
     return lower != "nan" && lower != "inf";
   }
 
+  void refuse_commas() const {
+    TextScanner ahead = scanner_;
+    const std::string word(ahead.word());
+    if (word.find_first_of(",;") != std::string::npos)
+      ahead.fail("a comma or a semicolon in '" + word + "'",
+                 "blanks between columns, and points in decimals: x y z");
+  }
+
   // Rows differ in length where one lost a coordinate.
   void read_row() {
+    if (rows_.columns == 0) refuse_commas();
     glm::dvec3 p{};
     for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
     builder_.add_vertex(p);

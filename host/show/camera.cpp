@@ -170,6 +170,7 @@ std::optional<Panel> Views::inset_in(const Area& area, const Panel& best) const 
   inset.camera.centre = spot_.point;
   inset.camera.scale = area.width / (2 * radius);
   inset.camera.reach = inset.camera.before = 1.01 * diagonal_;
+  inset.camera.widest = 0.03;
   if (!best.shows_spot) {  // looks along its normal, from within what hides it
     inset.camera.axes = axes_of(normal_at_spot(), options_.up);
     inset.camera.before = radius;

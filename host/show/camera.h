@@ -45,11 +45,12 @@ inline Axes axes_of(glm::dvec3 towards_viewer, Up up) {
 /// x and y in pixels of the picture, z in units towards the viewer.
 struct Camera {
   Axes axes;
-  glm::dvec3 centre{};  ///< it is in the middle of the area
-  double scale = 1;     ///< pixels a unit
-  double reach = 1;     ///< distance behind `centre` up to which something is drawn
-  double before = 1;    ///< the same before it, towards the viewer
-  double spacing = 0;   ///< between points, in units; 0: there are faces
+  glm::dvec3 centre{};    ///< it is in the middle of the area
+  double scale = 1;       ///< pixels a unit
+  double reach = 1;       ///< distance behind `centre` up to which something is drawn
+  double before = 1;      ///< the same before it, towards the viewer
+  double spacing = 0;     ///< between points, in units; 0: there are faces
+  double widest = 0.009;  ///< a point's disc at most, as a share of the area's width
   Area area;
 
   glm::dvec3 turned(glm::dvec3 v) const {
@@ -62,9 +63,8 @@ struct Camera {
   }
   /// The radius of a point's disc, in pixels: discs of a surface hide what is behind it.
   double disc() const {
-    constexpr double kOfSpacing = 0.9, kLeast = 0.7, kMostOfArea = 0.009;
-    return std::clamp(kOfSpacing * spacing * scale, kLeast,
-                      std::max(kMostOfArea * area.width, kLeast));
+    constexpr double kOfSpacing = 0.9, kLeast = 0.7;
+    return std::clamp(kOfSpacing * spacing * scale, kLeast, std::max(widest * area.width, kLeast));
   }
   /// Vulkan's clip space, of a pixel with its depth.
   glm::dvec3 clipped(const glm::dvec3& pixel) const {

@@ -221,7 +221,8 @@ void draw_bar(const Sheet& sheet, const Area& area) {
   const size_t most = std::clamp<size_t>(static_cast<size_t>(bar.area.height / (46 * u)), 2, 8);
   const bool steps = sheet.scale.bands() > 0 && sheet.scale.bands() <= 2 * most;
   const Ticks ticks = steps ? ticks_of_bands(sheet.scale) : ticks_of(sheet.scale.range(), most);
-  const std::string title = "upper bound of each face";
+  const std::string title =
+      std::string("upper bound of each ") + (sheet.picture.mesh.are_points ? "point" : "face");
   write(sheet.canvas, {area.x, area.y + size}, title, {size, kGrey, Align::kLeft});
   write(sheet.canvas, {bar.area.x, area.y + 2.6 * size}, in_units(sheet.picture, ticks.power),
         {size, kInk, Align::kLeft});

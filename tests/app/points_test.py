@@ -368,13 +368,13 @@ class Points(unittest.TestCase):
             for pair in ((name, "part.ply"), ("part.ply", name)):
                 done = self.run_here(PROGRAM, "distance", *pair)
                 self.assertEqual(done.returncode, 4, (pair, done.stderr))
-                self.assertIn("--points a to measure the points; b if it is the second file", done.stderr)
+                self.assertIn("--points a measures points, b those of the second file", done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
         for name in ("rows.txt", "rows"):
             self.assertEqual(self.ask("distance", name, "part.ply", "--points", "a")["inputs"][0]["faces"], 2)
         done = self.run_here(PROGRAM, "distance", "rows.csv", "part.ply", "--points", "a")
         self.assertEqual(done.returncode, 4)
-        self.assertIn("rows.csv: line 1: ", done.stderr)
+        self.assertIn("rows.csv: line 1: a comma or a semicolon in '0,0,1'; expected blanks between columns", done.stderr)
 
     def test_what_is_no_question_is_refused(self):
         self.write("a.ply", ply([(0, 0, 0), (1, 0, 1)]))

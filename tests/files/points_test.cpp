@@ -61,7 +61,7 @@ TEST_CASE("formats of points are named, with the option that reads them") {
                                           {"a.pts", xyz, "a text"}}) {
     const std::string line = error_of(bytes, name, false);
     CHECK(line.starts_with(name + ": byte 0: " + what + " (points, no faces); expected a mesh"));
-    CHECK(line.find("--points a to measure the points; b") != std::string::npos);
+    CHECK(line.find("--points a measures points, b those of the second file") != std::string::npos);
   }
   CHECK(error_of(xyz, "a.xyz", true) == "accepted");
   CHECK(error_of(xyz, "pipe", true) == "accepted");
