@@ -8,6 +8,7 @@
 
 #include "host/base/parallel.h"
 #include "host/mesh/closest.h"
+#include "host/mesh/triangle_tree.h"
 #include "host/survey/cell_corners.h"
 
 namespace vkh {
@@ -38,6 +39,10 @@ class FramedCorners {
   const double first_, second_;
 };
 
+double distance_of(const glm::dvec3& p, const Corners3& face) {
+  return glm::distance(p, closest_point(p, face[0], face[1], face[2]).point);
+}
+
 // The faces of B that a cell's bounds name, each once.
 struct NamedFaces {
   std::array<std::array<glm::dvec3, 3>, 4> corners;
@@ -54,13 +59,50 @@ struct NamedFaces {
 
   double distance(const glm::dvec3& p) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < count; ++i) {
-      const auto& [a, b, c] = corners[i];
-      nearest = std::min(nearest, glm::distance(p, closest_point(p, a, b, c).point));
-    }
+    for (size_t i = 0; i < count; ++i) nearest = std::min(nearest, distance_of(p, corners[i]));
     return nearest;
   }
 };
+
+// All faces of B, for the few cells that are too coarse to name those that are closest.
+class AllFaces {
+ public:
+  explicit AllFaces(const FramedCorners& mesh)
+      : corners_(corners_of_all(mesh)), tree_(corners_, numbers_to(mesh.face_count())) {}
+
+  double distance(const glm::dvec3& p) const {
+    double nearest = std::numeric_limits<double>::infinity(), squared = nearest;
+    tree_.nearest_first(p, squared, [&](uint32_t face) {
+      nearest = std::min(nearest, distance_of(p, corners_[face]));
+      squared = nearest * nearest;
+    });
+    return nearest;
+  }
+
+ private:
+  static std::vector<Corners3> corners_of_all(const FramedCorners& mesh) {
+    std::vector<Corners3> all(mesh.face_count());
+    for (uint32_t f = 0; f < all.size(); ++f) all[f] = mesh.of(f);
+    return all;
+  }
+  static std::vector<uint32_t> numbers_to(size_t count) {
+    std::vector<uint32_t> numbers(count);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return numbers;
+  }
+
+  std::vector<Corners3> corners_;
+  TriangleTree tree_;
+};
+
+// Whether the faces that the bounds name may not be those that are closest at the corners: a cell
+// with more faces of B about it than a device examines has one lower bound at two corners or more.
+bool may_miss_faces(const gpu::CellBounds& b, const CellEstimate& found) {
+  const double most = std::max({found.corners[0], found.corners[1], found.corners[2]});
+  const bool has_one_bound =
+      b.lower_a == b.lower_b || b.lower_b == b.lower_c || b.lower_c == b.lower_a;
+  return has_one_bound && most > static_cast<double>(lowest(b));
+}
 
 // The distance, put between two bounds; their middle if there is none.
 double between_bounds(double distance, double lower, double upper) {
@@ -79,10 +121,15 @@ class CellEstimator {
   explicit CellEstimator(const SurveyedPair& pair)
       : a_(pair.a, pair.frame), b_(pair.b, pair.frame) {}
 
+  AllFaces all_faces() const { return AllFaces(b_); }
+  CellEstimate of(const gpu::Cell& cell, const gpu::CellBounds& b) const {
+    return of(cell, b, NamedFaces(b, b_));
+  }
+
   // Weights of 1/12 for each corner and 3/4 for the centroid make the mean of a quadratic function
   // over a triangle.
-  CellEstimate of(const gpu::Cell& cell, const gpu::CellBounds& b) const {
-    const NamedFaces faces(b, b_);
+  template <class Faces>
+  CellEstimate of(const gpu::Cell& cell, const gpu::CellBounds& b, const Faces& faces) const {
     const std::array<glm::dvec3, 3> at = corners_in_frame(cell);
     const auto highest = static_cast<double>(b.highest);
     const std::array<float, 3> lower{b.lower_a, b.lower_b, b.lower_c};
@@ -159,8 +206,19 @@ void within_part(const std::array<float, 3>& corners, double area,
 Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas)
     : cells_(cells), areas_(areas), of_cell_(cells.count()) {
   const CellEstimator estimator(pair);
-  for_each_block(cells.count(), [&](size_t, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) of_cell_[i] = estimator.of(cells.cell(i), cells.bounds(i));
+  std::vector<std::vector<size_t>> coarse(block_count(cells.count()));
+  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      of_cell_[i] = estimator.of(cells.cell(i), cells.bounds(i));
+      if (may_miss_faces(cells.bounds(i), of_cell_[i])) coarse[block].push_back(i);
+    }
+  });
+  const auto has_some = [](const std::vector<size_t>& block) { return !block.empty(); };
+  if (std::none_of(coarse.begin(), coarse.end(), has_some)) return;
+  const AllFaces faces = estimator.all_faces();
+  for_each_block(cells.count(), [&](size_t block, size_t, size_t) {
+    for (const size_t i : coarse[block])
+      of_cell_[i] = estimator.of(cells.cell(i), cells.bounds(i), faces);
   });
 }
 

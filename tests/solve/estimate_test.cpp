@@ -302,6 +302,29 @@ TEST_CASE("a map is cut until cells are resolved, or pixels") {
   }
 }
 
+TEST_CASE("a cell with more faces about it than a device examines has true estimates") {
+  const Mesh a = square_patch(1, 0.0), b = height_field(48, 1);
+  SurveyOptions options;
+  options.map.emplace();
+  options.effort = 0;
+  const SurveyResult r = survey_of(a, b, options);
+  REQUIRE(r.map);
+  REQUIRE(r.map->cells.size() == a.faces.size());
+  const ClosestTree tree(b.vertices, b.faces);
+  for (const MapCell& cell : r.map->cells) {
+    CHECK(static_cast<double>(cell.width) * r.map->unit > 0.05);  // little is proven of it
+    const std::array<glm::dvec3, 3> weights = weights_of(cell);
+    const glm::uvec3 f = a.faces[cell.face];
+    for (size_t i = 0; i < weights.size(); ++i) {
+      const glm::dvec3 p = weights[i].x * glm::dvec3(a.vertices[f.x]) +
+                           weights[i].y * glm::dvec3(a.vertices[f.y]) +
+                           weights[i].z * glm::dvec3(a.vertices[f.z]);
+      const double estimate = static_cast<double>(cell.estimate[i]) * r.map->unit;
+      CHECK(estimate == doctest::Approx(distance_to(tree, p)).epsilon(1e-4));
+    }
+  }
+}
+
 TEST_CASE("one stray triangle does not move the end of the colours") {
   Mesh a = square_patch(8, 0.0);
   for (DVec3& v : a.vertices) v.z = 0.001 * (1 + v.x);
