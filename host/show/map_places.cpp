@@ -193,6 +193,12 @@ class FarClusters {
   std::vector<size_t> kept_, peaks_;
 };
 
+// A stray triangle makes no other place too small: the bar's end counts, where that is nearer.
+float least_of_places(const CellMap& map, float largest) {
+  const double end = std::min(static_cast<double>(largest), map.bar / map.unit);
+  return static_cast<float>(kLeastOfLargest * (end > 0 ? end : static_cast<double>(largest)));
+}
+
 }  // namespace
 
 std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t most,
@@ -203,7 +209,7 @@ std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t mo
   }
   if (static_cast<double>(largest) <= map.least) return {};
   MapGrid grid(mesh);
-  const auto least = static_cast<float>(kLeastOfLargest * static_cast<double>(largest));
+  const float least = least_of_places(map, largest);
   for (const MapCell& cell : map.cells) {
     if (!map.is_left_out(cell)) grid.add(mesh, map, cell, least);
   }

@@ -192,6 +192,18 @@ TEST_CASE("a place is a cluster, not a cell") {
   CHECK(map_places(mesh, flat, 5).empty());
 }
 
+TEST_CASE("a stray triangle leaves the other places") {
+  const Mesh mesh = sheet(40);
+  const CellMap map = map_of_faces(mesh, [](const glm::dvec3& p) {
+    return bump(p, 10, 10, 50) + bump(p, 30, 12, 0.6) + bump(p, 20, 33, 0.3);
+  });
+  const std::vector<MapPlace> places = map_places(mesh, map, 5);
+  REQUIRE(places.size() == 3);
+  CHECK(places[0].distance == doctest::Approx(50));
+  CHECK(places[1].distance == doctest::Approx(0.6));
+  CHECK(places[2].distance == doctest::Approx(0.3));
+}
+
 TEST_CASE("a ridge is one place") {
   const Mesh mesh = sheet(40);
   const CellMap map = map_of_faces(mesh, [](const glm::dvec3& p) {
