@@ -80,8 +80,14 @@ class Drawing {
     glm::dvec2 tip, size;
     double clear;  ///< no nearer to the tip than that
   };
+  /// A label that has its place: its box, and the point to which its line goes.
+  struct Placed {
+    Area box;
+    glm::dvec2 tip;
+    std::string text;
+  };
   Area place_for_label(const Panel& panel, const Layer& layer, const Label& label,
-                       const std::vector<Area>& taken) const;
+                       const std::vector<Placed>& taken) const;
   /// The colour of pointers to the witness: none of the faces' colours.
   Rgb pin_colour() const { return picture_.limit ? kInk : kSignal; }
   void draw_ring(glm::dvec2 at, double radius);
@@ -94,7 +100,10 @@ class Drawing {
   void draw_panel_frame(const Panel& panel);
   void draw_axes_and_ruler(const std::vector<Panel>& panels, const Camera& camera);
   void draw_numbers(const Panel& panel, const Layer& layer, bool is_single);
-  void draw_label(const Panel& panel, const Layer& layer, size_t place, std::vector<Area>& taken);
+  void add_label(const Panel& panel, const Layer& layer, size_t place,
+                 std::vector<Placed>& taken) const;
+  void draw_line(const Placed& label);
+  void draw_label(const Placed& label);
   void draw_map_legend(const Area& side);
 
   const Device& device_;
@@ -114,8 +123,11 @@ class Drawing {
 /// Says what a colour is, and how well it is known.
 std::string Drawing::map_colours_text() const {
   const std::string other = picture_.back ? "A" : "B";
-  std::string text = "Colour: the estimated distance from " + other +
-                     ", off by at most 5 % of the bar, where it is not hatched.";
+  std::string text =
+      "Colour: the estimated distance from " + other +
+      (map_scale_->is_signed() ? ", off by at most 5 % of the bar, 10 % about nought,"
+                               : ", off by at most 5 % of the bar,") +
+      " where it is not hatched.";
   if (picture_.mesh.are_points) text += " A disc is a point.";
   if (!places_.empty() && options_.view.kind != View::Kind::kSix)
     text += " A grey number is hidden in this view.";
@@ -133,9 +145,15 @@ std::string Drawing::bounds_colours_text() const {
 std::vector<std::string> Drawing::footer_lines() const {
   std::vector<std::string> lines = {picture_.map != nullptr ? map_colours_text()
                                                             : bounds_colours_text()};
-  if (!picture_.unfinished.empty())
+  if (!picture_.unfinished.empty()) {
     lines[0] += " The map is not finished: " + picture_.unfinished + ".";
-  for (const std::string& text : picture_.caption) {
+  } else if (picture_.map != nullptr) {
+    lines[0] += " The map is finished.";
+  }
+  std::vector<std::string> texts = std::move(lines);
+  texts.insert(texts.end(), picture_.caption.begin(), picture_.caption.end());
+  lines.clear();
+  for (const std::string& text : texts) {
     for (std::string& line : wrapped(text, 15 * unit_, options_.width - 72 * unit_, 2))
       lines.push_back(std::move(line));
   }
@@ -307,8 +325,10 @@ Image Drawing::draw_map() {
 /// Draws the numbers of the places; in a single view with their distances, and those that are
 /// hidden in grey. Lines of labels are under the numbers.
 void Drawing::draw_numbers(const Panel& panel, const Layer& layer, bool is_single) {
-  std::vector<Area> taken;
-  for (size_t i = 0; is_single && i < places_.size(); ++i) draw_label(panel, layer, i, taken);
+  std::vector<Placed> labels;
+  for (size_t i = 0; is_single && i < places_.size(); ++i) add_label(panel, layer, i, labels);
+  for (const Placed& label : labels) draw_line(label);
+  for (const Placed& label : labels) draw_label(label);
   for (size_t i = places_.size(); i-- > 0;) {  // the worst one is drawn last
     const bool is_hidden = !is_seen(picture_.mesh, panel.camera, places_[i].point);
     if (is_hidden && !is_single) continue;
@@ -317,25 +337,46 @@ void Drawing::draw_numbers(const Panel& panel, const Layer& layer, bool is_singl
   }
 }
 
-/// Draws a place's distance near its number, clear of other labels.
-void Drawing::draw_label(const Panel& panel, const Layer& layer, size_t place,
-                         std::vector<Area>& taken) {
+glm::dvec2 nearest_in(const Area& box, const glm::dvec2& point) {
+  return glm::clamp(point, glm::dvec2(box.x, box.y), glm::dvec2(box.right(), box.bottom()));
+}
+
+/// Whether a line from p to q passes through the box, as 64 of its points see it.
+bool meets(const Area& box, const glm::dvec2& p, const glm::dvec2& q) {
+  constexpr int kPoints = 64;
+  for (int i = 0; i <= kPoints; ++i) {
+    if (box.has(p + (q - p) * (static_cast<double>(i) / kPoints))) return true;
+  }
+  return false;
+}
+
+/// Finds a place for a place's distance near its number.
+void Drawing::add_label(const Panel& panel, const Layer& layer, size_t place,
+                        std::vector<Placed>& taken) const {
   const double u = unit_, size = 17 * u;
   const std::string text = place_text(picture_, places_[place]);
   const glm::dvec2 box_size(text_width(text, size) + 16 * u, 28 * u);
   const glm::dvec2 tip(panel.camera.pixel(places_[place].point));
   if (!panel.camera.area.inner(-20 * u).has(tip)) return;
   const Area box = place_for_label(panel, layer, {tip, box_size, 16 * u}, taken);
-  taken.push_back(box);
-  const glm::dvec2 from =
-      glm::clamp(tip, glm::dvec2(box.x, box.y), glm::dvec2(box.right(), box.bottom()));
+  taken.push_back({box, tip, text});
+}
+
+void Drawing::draw_line(const Placed& label) {
+  const double u = unit_;
+  const glm::dvec2 from = nearest_in(label.box, label.tip), to = label.tip;
   const glm::dvec2 end =
-      tip + (from - tip) * std::min(1.0, 13 * u / std::max(glm::distance(from, tip), 1e-9));
+      to + (from - to) * std::min(1.0, 13 * u / std::max(glm::distance(from, to), 1e-9));
   canvas_.line(from, end, 4 * u, kPaper);
   canvas_.line(from, end, 1.6 * u, kInk);
-  canvas_.fill(box.inner(-1.5 * u), kInk, 1, 6 * u);
-  canvas_.fill(box, kPaper, 1, 5 * u);
-  write(canvas_, {box.centre().x, box.y + 20 * u}, text, {size, kInk, Align::kCentre});
+}
+
+void Drawing::draw_label(const Placed& label) {
+  const double u = unit_;
+  canvas_.fill(label.box.inner(-1.5 * u), kInk, 1, 6 * u);
+  canvas_.fill(label.box, kPaper, 1, 5 * u);
+  write(canvas_, {label.box.centre().x, label.box.y + 20 * u}, label.text,
+        {17 * u, kInk, Align::kCentre});
 }
 
 void Drawing::draw_map_legend(const Area& side) {
@@ -366,9 +407,19 @@ double covered(const Layer& layer, const Area& views, const Area& box) {
   return sum / static_cast<double>(std::max<size_t>(count, 1)) + (sum > 0 ? 1 : 0);
 }
 
-/// Places a label near its tip, beside the mesh if there is room, and clear of others.
+/// Whether two labels hide each other, or the line of one passes through the other.
+bool is_in_the_way(const Area& one, const glm::dvec2& tip, const Area& two,
+                   const glm::dvec2& other_tip) {
+  const bool is_over =
+      one.x < two.right() && two.x < one.right() && one.y < two.bottom() && two.y < one.bottom();
+  return is_over || meets(one, other_tip, nearest_in(two, other_tip)) ||
+         meets(two, tip, nearest_in(one, tip));
+}
+
+/// Places a label near its tip, beside the mesh if there is room, and clear of others and their
+/// lines.
 Area Drawing::place_for_label(const Panel& panel, const Layer& layer, const Label& label,
-                              const std::vector<Area>& taken) const {
+                              const std::vector<Placed>& taken) const {
   const auto& [tip, size, clear] = label;
   constexpr int kDirections = 24;
   constexpr double kTurn = 2 * 3.14159265358979 / kDirections;
@@ -382,13 +433,12 @@ Area Drawing::place_for_label(const Panel& panel, const Layer& layer, const Labe
       Area box{middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y};
       box.x = std::clamp(box.x, views.x, std::max(views.x, views.right() - size.x));
       box.y = std::clamp(box.y, views.y, std::max(views.y, views.bottom() - size.y));
-      const bool meets = box.inner(-clear).has(tip);
-      const bool is_taken = std::any_of(taken.begin(), taken.end(), [&](const Area& other) {
-        return box.x < other.right() && other.x < box.right() && box.y < other.bottom() &&
-               other.y < box.bottom();
-      });
-      const double cost =
-          covered(layer, views, box) + far / 500 + (meets ? 9 : 0) + (is_taken ? 9 : 0);
+      double cost = covered(layer, views, box) + far / 500;
+      if (box.inner(-clear).has(tip)) cost += 9;
+      if (std::any_of(taken.begin(), taken.end(), [&](const Placed& other) {
+            return is_in_the_way(other.box, other.tip, box, tip);
+          }))
+        cost += 9;
       if (cost >= least) continue;
       least = cost;
       best = box;

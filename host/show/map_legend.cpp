@@ -43,7 +43,7 @@ double draw_rows(const Sheet& sheet, const std::vector<LegendRow>& rows, const A
   return line * static_cast<double>(rows.size());
 }
 
-struct MapBar {
+struct DrawnBar {
   Area area;
   const MapScale& scale;
   double y_of(double distance) const {
@@ -51,7 +51,7 @@ struct MapBar {
   }
 };
 
-void draw_bar_colours(const Sheet& sheet, const MapBar& bar) {
+void draw_bar_colours(const Sheet& sheet, const DrawnBar& bar) {
   const auto rows = static_cast<int>(bar.area.height);
   for (int row = 0; row < rows; ++row)
     sheet.canvas.fill({bar.area.x, bar.area.y + row, bar.area.width, 1},
@@ -59,7 +59,7 @@ void draw_bar_colours(const Sheet& sheet, const MapBar& bar) {
   sheet.canvas.frame(bar.area, 1, kGrey);
 }
 
-void draw_bar_limit(const Sheet& sheet, const MapBar& bar, double limit) {
+void draw_bar_limit(const Sheet& sheet, const DrawnBar& bar, double limit) {
   const double u = sheet.unit, y = bar.y_of(limit), size = kText * u;
   const double left = bar.area.x - 10 * u;
   sheet.canvas.line({left, y}, {bar.area.right() + 4 * u, y}, std::max(2.0, 2.4 * u), kInk);
@@ -69,7 +69,7 @@ void draw_bar_limit(const Sheet& sheet, const MapBar& bar, double limit) {
         {fitted_size(text, size, 90 * u), kInk, Align::kRight});
 }
 
-void draw_bar_ticks(const Sheet& sheet, const MapBar& bar, const Ticks& ticks) {
+void draw_bar_ticks(const Sheet& sheet, const DrawnBar& bar, const Ticks& ticks) {
   const double u = sheet.unit, size = kText * u, x = bar.area.right();
   for (size_t i = 0; i < ticks.at.size(); ++i) {
     const double y = bar.y_of(ticks.at[i]);
@@ -79,7 +79,7 @@ void draw_bar_ticks(const Sheet& sheet, const MapBar& bar, const Ticks& ticks) {
 }
 
 // The words beside the ends of a signed bar.
-void draw_bar_sides(const Sheet& sheet, const MapBar& bar) {
+void draw_bar_sides(const Sheet& sheet, const DrawnBar& bar) {
   const double u = sheet.unit, size = kSmall * u, x = bar.area.x + 118 * u;
   const std::string other = sheet.picture.back ? "A" : "B";
   write(sheet.canvas, {x, bar.area.y + size}, "over " + other, {size, kGrey, Align::kLeft});
@@ -135,11 +135,12 @@ void draw_map_bar(const Sheet& sheet, const MapLegend& legend, const Area& area)
       draw_rows(sheet, legend_rows(sheet.picture, legend.scale, legend.counts), area);
   const MapScale& scale = legend.scale;
   const double top = area.y + 54 * u;
-  const MapBar bar{{std::round(area.x + 120 * u), std::round(top), std::round(34 * u),
-                    std::round(std::max(area.bottom() - notes - 12 * u - top, 30 * u))},
-                   scale};
+  const DrawnBar bar{{std::round(area.x + 120 * u), std::round(top), std::round(34 * u),
+                      std::round(std::max(area.bottom() - notes - 12 * u - top, 30 * u))},
+                     scale};
   const size_t most = std::clamp<size_t>(static_cast<size_t>(bar.area.height / (40 * u)), 2, 8);
-  const Ticks ticks = ticks_of({scale.low(), scale.high()}, most);
+  Ticks ticks = ticks_of({scale.low(), scale.high()}, most);
+  if (ticks.at.size() < 3) ticks = ticks_of({scale.low(), scale.high()}, 2 * most);
   write(sheet.canvas, {area.x, area.y + size}, bar_title(sheet.picture, scale),
         {size, kGrey, Align::kLeft});
   const std::string unit = sheet.picture.unit.empty() ? "files' units" : sheet.picture.unit;
@@ -198,8 +199,8 @@ std::vector<std::string> figures_of(const Sheet& sheet, const MapLegend& legend)
   std::string percentiles;
   for (const Percentile& p : s->percentiles) {
     if (p.distance.estimate && p.share > 0.9)
-      percentiles += (percentiles.empty() ? "p" : ", p") + shortest_decimal(100 * p.share) + " " +
-                     number(*p.distance.estimate);
+      percentiles += (percentiles.empty() ? "" : ", ") + shortest_decimal(100 * p.share) +
+                     " % within " + number(*p.distance.estimate);
   }
   if (!percentiles.empty()) figures.push_back(percentiles);
   return figures;
