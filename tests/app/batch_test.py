@@ -342,6 +342,32 @@ LAYER = os.environ.get("VKH_LAYER_FOLDER")
 
 
 @unittest.skipIf(not LAYER, "no test layer")
+class Counts(Folder):
+    """Submissions to the device, which the test layer counts (docs/test_layer.md)."""
+
+    def submissions(self, *words):
+        counts = self.folder / "counts"
+        counts.unlink(missing_ok=True)
+        (self.folder / "out.jsonl").unlink(missing_ok=True)
+        done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", *words,
+                              env={"VK_LAYER_PATH": f"{LAYER}:/usr/share/vulkan/explicit_layer.d",
+                                   "VK_INSTANCE_LAYERS": "VK_LAYER_VKH_test", "NODEVICE_SELECT": "1", "VKH_LAYER_COUNT": str(counts)})
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+        return int(re.search(r"^vkQueueSubmit (\d+)$", counts.read_text(), re.M)[1])
+
+    # Without effort no cell is split, so that no clock decides how many submissions a survey takes.
+    def test_a_pair_with_sides_and_a_page_is_surveyed_once(self):
+        self.make_pairs(1)
+        bare = self.submissions()
+        sided = self.submissions("--signed", "--effort", "0")
+        page = self.submissions("--report-dir", "pages", "--effort", "0")
+        self.assertGreater(sided, bare)
+        self.assertGreater(page, bare)
+        both = self.submissions("--signed", "--report-dir", "both", "--effort", "0")
+        self.assertLess(both, page + sided - bare)  # a second survey would take as many as the first
+
+
+@unittest.skipIf(not LAYER, "no test layer")
 class Faults(Folder):
     """A device that is lost (docs/test_layer.md)."""
 

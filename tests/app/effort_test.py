@@ -8,6 +8,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -81,6 +82,34 @@ class Effort(unittest.TestCase):
             self.assertEqual((survey["ended"], survey["effort"], survey["met"]), ("effort", effort, False))
             self.assertEqual(survey["bounded"], faces + effort - 1)
         self.assertEqual(without_times(first), without_times(second))
+
+    def outputs(self, *words):
+        """The bytes of all files that show an answer; of the page, all but its record and its JSON, which have times."""
+        folder = pathlib.Path(self.folder.name)
+        names = ("o.png", "o-b.png", "o.ply", "o-b.ply", "figures.csv", "places.csv", "o.html")
+        done = self.run_program(*words, "--image", folder / "o.png", "--field", folder / "o.ply", "--figures-csv", folder / "figures.csv",
+                                "--points-out", folder / "places.csv", "--report", folder / "o.html")
+        self.assertIn(done.returncode, (0, 1, 3), done.stderr)
+        data = {name: (folder / name).read_bytes() for name in names}
+        page = data["o.html"].decode()
+        page, count = re.subn(r'id="answer">.*?</script>', "", page, flags=re.S)
+        page, more = re.subn(r'<section class="record">.*?</section>', "", page, flags=re.S)
+        self.assertEqual((count, more), (1, 1))
+        data["o.html"] = page
+        return data
+
+    def test_pictures_are_the_same_beside_a_busy_machine(self):
+        words = ("gate", str(self.a), str(self.b), "--max", "0.15abs", "--symmetric", "--effort", "20001")
+        first = self.outputs(*words)
+        busy = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range((os.cpu_count() or 1) + 1)]
+        try:
+            second = self.outputs(*words)
+        finally:
+            for one in busy:
+                one.kill()
+                one.wait()
+        for name, data in first.items():
+            self.assertTrue(data == second[name], name)
 
     def test_why_it_ended(self):
         met = self.survey("--stats")
