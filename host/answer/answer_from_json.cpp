@@ -350,6 +350,23 @@ FieldSummary field_of(const Json& json, bool has_limit) {
   return summary;
 }
 
+MapShares map_shares_of(const Json& json) {
+  MapShares shares;
+  shares.bar.low = number_at(json, "low");
+  shares.bar.high = number_at(json, "high");
+  shares.has_sides = truth_at(json, "signed");
+  if (json.contains("limit")) shares.bar.limit = number_at(json, "limit");
+  if (json.contains("limit_under")) shares.bar.limit_under = number_at(json, "limit_under");
+  shares.above = number_at(json, "above");
+  shares.below = number_at(json, "below");
+  shares.no_side = number_at(json, "no_side");
+  shares.left_out = number_at(json, "left_out");
+  shares.unresolved = number_at(json, "unresolved");
+  shares.within = number_at(json, "within");
+  shares.mean = number_at(json, "mean");
+  return shares;
+}
+
 std::optional<SurveyResult> survey_at(const Json& direction, bool has_limit) {
   if (!direction.contains("survey")) return std::nullopt;
   const Json& json = direction.at("survey");
@@ -365,6 +382,7 @@ std::optional<SurveyResult> survey_at(const Json& direction, bool has_limit) {
   if (direction.contains("statistics"))
     result.statistics = statistics_of(direction.at("statistics"));
   if (direction.contains("signed")) result.sides = signed_of(direction.at("signed"));
+  if (direction.contains("map")) result.shares = map_shares_of(direction.at("map"));
   return result;
 }
 

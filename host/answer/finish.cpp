@@ -8,6 +8,7 @@
 #include "host/base/decimal.h"
 #include "host/solve/cells.h"
 #include "host/survey/distribution.h"
+#include "host/survey/map_shares.h"
 #include "vkhausdorff/certificate.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/note.h"
@@ -59,13 +60,30 @@ struct Side {
   Report& report;
 };
 
+std::optional<Enclosure> map_range(const Finishing& at) {
+  if (!at.question.map_range) return {};
+  const auto end = [&](const Length& length) {
+    return length.number == 0 ? 0 : resolved(length, "--range", at.answer).within;
+  };
+  return Enclosure{end((*at.question.map_range)[0]), end((*at.question.map_range)[1])};
+}
+
+// What a picture of the map says of its colours. Its bar ends at the larger limit, or the map's.
+void add_shares(const Finishing& at, double upper, SurveyResult& survey) {
+  if (!survey.map || survey.map->cells.empty()) return;
+  BarOptions options{.upper = upper, .range = map_range(at)};
+  if (at.answer.max) options.limit = at.answer.max->limit;
+  if (at.answer.max && at.answer.max->sides) options.sided = at.answer.max->sides->limits;
+  survey.shares = shares_of(*survey.map, bar_of(*survey.map, options));
+}
+
 // The colours of a picture go to one and a half times the limit, unless the user says where to.
 std::optional<MapOptions> map_options(const Finishing& at) {
   constexpr double kBarOfLimit = 1.5;
   if (at.question.map_pixels <= 0) return {};
-  MapOptions map{.pixels = at.question.map_pixels};
-  if (at.question.map_bar) {
-    map.bar = resolved(*at.question.map_bar, "--range", at.answer).within;
+  MapOptions map{.pixels = at.question.map_pixels, .sides_if_cheap = at.question.map_sides};
+  if (at.question.map_range) {
+    map.bar = map_range(at)->upper;
   } else if (at.answer.max) {
     map.bar = kBarOfLimit * at.answer.max->limit.within;
   }
@@ -203,6 +221,7 @@ SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
   if (result.ended == SurveyEnd::kCancelled && at.observer.time_left_s() <= 0)
     result.ended = SurveyEnd::kTime;
   join(side.report, result, side.from.faces.size());
+  add_shares(at, side.report.upper, result);
   if (beyond && result.statistics) take_coverage(at, *beyond, *result.statistics);
   if (options.statistics && !result.statistics)
     note(at, NoteCode::kSurvey, std::string("there are no statistics of ") + side.name);

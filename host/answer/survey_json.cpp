@@ -106,6 +106,23 @@ Json faces_json(const SurveyResult& survey, const Answer& answer) {
   return json;
 }
 
+Json map_json(const MapShares& shares, const Json& unit) {
+  Json json = {{"low", shares.bar.low},
+               {"high", shares.bar.high},
+               {"unit", unit},
+               {"signed", shares.has_sides}};
+  if (shares.bar.limit) json["limit"] = *shares.bar.limit;
+  if (shares.bar.limit_under) json["limit_under"] = *shares.bar.limit_under;
+  json["above"] = shares.above;
+  json["below"] = shares.below;
+  json["no_side"] = shares.no_side;
+  json["left_out"] = shares.left_out;
+  json["unresolved"] = shares.unresolved;
+  json["within"] = shares.within;
+  json["mean"] = shares.mean;
+  return json;
+}
+
 }  // namespace
 
 void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answer, Detail detail) {
@@ -121,6 +138,7 @@ void add_survey(JsonObject& json, const SurveyResult& survey, const Answer& answ
     json.add_text("statistics", statistics_json(*survey.statistics, text_or_null(answer.unit)));
   if (survey.sides)
     json.add_text("signed", signed_json(*survey.sides, text_or_null(answer.unit), detail));
+  if (survey.shares) json.add("map", map_json(*survey.shares, text_or_null(answer.unit)));
 }
 
 }  // namespace vkh

@@ -63,7 +63,10 @@ void add_look_options(CLI::App& command, TypedPictures& typed) {
       ->type_name("cells|faces");
   command.add_option("--up", typed.up, "The axis that points up, y or z [z]");
   command.add_option("--size", typed.size, "Of the picture [1600x1000]")->type_name("WxH");
-  command.add_option("--map", typed.map, "Its colours: viridis, batlow or cividis [viridis]");
+  command.add_option(
+      "--map", typed.map,
+      "Its colours, of distances without a side: viridis, batlow or cividis [by side where it "
+      "costs little, otherwise viridis]");
   command.add_option("--range", typed.range, "Lengths at the ends of its colours: 0,0.5mm")
       ->delimiter(',')
       ->type_name("LENGTH,LENGTH")
@@ -148,6 +151,7 @@ PictureStyle look_of(const TypedPictures& typed) {
   look.options.bands = typed.steps.value_or(0);
   if (look.options.bands > kMostSteps) throw UsageError("--steps: 256 at most");
   if (!typed.range.empty()) look.range = range_of(typed.range);
+  look.is_plain = typed.map.has_value();  // the palettes of signed maps have no names
   return look;
 }
 

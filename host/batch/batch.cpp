@@ -283,7 +283,9 @@ class Batch {
       job_.folders->draw({one.entry, one.meshes, solver, [this] { return goes_on(); }}, answer);
     if (!is_surveyed) return;
     for (std::optional<SurveyResult>* one_way : {&answer.survey_a, &answer.survey_b}) {
-      if (*one_way) (*one_way)->map.reset();  // it is large, and a line has none
+      if (!*one_way) continue;
+      (*one_way)->map.reset();  // it is large, and a line has none
+      (*one_way)->shares.reset();
     }
     one.surveyed = std::move(answer);
   }

@@ -23,6 +23,7 @@ std::string text_of(const PictureStyle& look) {
         static_cast<int>(o.bands), static_cast<int>(o.by)})
     text += " " + std::to_string(choice);
   for (const double part : {from.x, from.y, from.z}) text += " " + hex_float(part);
+  if (!look.is_plain) text += " sides";
   if (look.range) text += " " + (*look.range)[0].requested + "," + (*look.range)[1].requested;
   return text;
 }

@@ -48,6 +48,7 @@ struct Picture {
   const CellMap* map = nullptr;
   const Statistics* statistics = nullptr;  ///< figures for a picture by cells; null: none
   std::optional<SidedLimits> sided = {};   ///< limits that differ by side, of a picture by cells
+  std::optional<MapBar> bar = {};          ///< the map's; none: limits, map and options decide
   std::string unfinished = {};             ///< why the survey was cut short; empty: it was not
 };
 

@@ -49,6 +49,7 @@ const char* unfinished_text(SurveyEnd end) {
 void add_map(const Side& side, const Answer& answer, Picture& picture) {
   if (!side.survey.map || side.survey.map->cells.empty()) return;
   picture.map = &*side.survey.map;
+  if (side.survey.shares) picture.bar = side.survey.shares->bar;
   if (side.survey.statistics) picture.statistics = &*side.survey.statistics;
   picture.unfinished = unfinished_text(side.survey.ended);
   if (answer.max && answer.max->sides) picture.sided = answer.max->sides->limits;
@@ -79,7 +80,8 @@ void ask_for(const PictureStyle& look, Question& question) {
     return;
   }
   question.map_pixels = kPixelsOfDiagonal * std::max(options.width, options.height);
-  if (look.range) question.map_bar = (*look.range)[1];
+  question.map_range = look.range;
+  question.map_sides = !look.is_plain && !(look.range && (*look.range)[0].number != 0);
 }
 
 Picture drawn_of(const Side& side, const Answer& answer, const PictureStyle& look) {

@@ -16,6 +16,7 @@ namespace vkh {
 struct PictureStyle {
   PictureOptions options;
   std::optional<std::array<Length, 2>> range;  ///< range of colours; none: each picture has its own
+  bool is_plain = false;  ///< distances have signs only where the question asks for sides
 };
 
 /// An answer with its surveys and its inputs.

@@ -31,33 +31,22 @@ constexpr std::array<Rgb, 2> kUnderBeyond{{{8, 28, 96}, {28, 84, 190}}};
 }  // namespace
 
 MapScale::MapScale(const Picture& picture, const PictureOptions& options)
-    : map_(*picture.map), is_signed_(picture.map->has_sides) {
-  if (picture.limit) limit_ = picture.limit->within;
-  if (picture.limit && is_signed_) limit_under_ = -picture.limit->within;
-  if (picture.sided) {
-    limit_ = picture.sided->over.within;
-    limit_under_ = -picture.sided->under.within;
-  }
-  set_range(picture, options);
+    : map_(*picture.map), bar_(picture.bar ? *picture.bar : bar_of(picture, options)) {
   set_palette(options);
 }
 
-void MapScale::set_range(const Picture& picture, const PictureOptions& options) {
-  constexpr double kTimesLimit = 1.5;
-  high_ = limit_ ? kTimesLimit * *limit_ : map_.bar;
-  if (!limit_) high_ = std::min(high_, picture.interval.upper);
-  if (is_signed_) low_ = limit_under_ ? kTimesLimit * *limit_under_ : -high_;
-  if (options.range) {
-    low_ = is_signed_ ? -options.range->upper : options.range->lower;
-    high_ = options.range->upper;
-  }
+MapBar MapScale::bar_of(const Picture& picture, const PictureOptions& options) {
+  return vkh::bar_of(*picture.map, {.limit = picture.limit,
+                                    .sided = picture.sided,
+                                    .upper = picture.interval.upper,
+                                    .range = options.range});
 }
 
 void MapScale::set_palette(const PictureOptions& options) {
   const auto at = [&](double limit) { return std::clamp(share_of(limit), 0.0, 1.0); };
   palette_.bands = std::min(options.bands, 255u);
-  palette_.from = limit_under_ ? at(*limit_under_) : 0;
-  palette_.to = limit_ ? at(*limit_) : 1;
+  palette_.from = bar_.limit_under ? at(*bar_.limit_under) : 0;
+  palette_.to = bar_.limit ? at(*bar_.limit) : 1;
   const auto step = [](size_t i, size_t count) {
     return static_cast<double>(i) / static_cast<double>(count - 1);
   };
@@ -71,15 +60,9 @@ void MapScale::set_palette(const PictureOptions& options) {
   for (size_t i = 0; i < Palette::kWithin; ++i) {
     const double share = step(i, Palette::kWithin);
     const double turned = share < nought ? share / nought / 2 : 1 - (1 - share) / (1 - nought) / 2;
-    palette_.within[i] =
-        is_signed_ ? signed_colour(turned, limit_.has_value()) : map_colour(options.map, share);
+    palette_.within[i] = is_signed() ? signed_colour(turned, bar_.limit.has_value())
+                                     : map_colour(options.map, share);
   }
-}
-
-double MapScale::share_of(double distance) const {
-  const double width = high_ - low_;
-  if (!(width > 0)) return distance > high_ ? 2 : 0;  // a bar without width has one colour
-  return distance / width - low_ / width;
 }
 
 Rgb MapScale::colour(double distance) const {
@@ -88,30 +71,9 @@ Rgb MapScale::colour(double distance) const {
   return share < 0 ? kBelow : palette_.colour(share);
 }
 
-bool MapScale::is_without_side(const MapCell& cell) const {
-  if (!is_signed_ || cell.side != SurfaceSide::kUnsigned) return false;
-  const float most = std::max({cell.estimate[0], cell.estimate[1], cell.estimate[2]});
-  return static_cast<double>(most) > map_.least &&
-         static_cast<double>(most) * map_.unit > CellMap::kUnresolved * high_;
-}
-
-double MapScale::distance_at(const MapCell& cell, size_t corner) const {
-  const double distance = map_.unit * static_cast<double>(cell.estimate[corner]);
-  if (!is_signed_) return distance;
-  return cell.side == SurfaceSide::kUnsigned ? 0 : distance * static_cast<double>(cell.side);
-}
-
-double MapScale::distance_of(const MapCell& cell) const {
-  return (distance_at(cell, 0) + distance_at(cell, 1) + distance_at(cell, 2)) / 3;
-}
-
 std::optional<Rgb> MapScale::plain_colour(const MapCell& cell) const {
   if (is_left_out(cell)) return kLeftOut;
   return is_without_side(cell) ? std::optional(kNoSide) : std::nullopt;
-}
-
-bool MapScale::is_unresolved(const MapCell& cell) const {
-  return !is_left_out(cell) && map_.is_unresolved(cell, std::max(high_, -low_));
 }
 
 namespace {
@@ -177,38 +139,12 @@ FillFaces cells_for(const Picture& picture, const MapScale& scale, const Camera&
 }
 
 MapCounts counts_of(const CellMap& map, const MapScale& scale) {
-  MapCounts counts;
-  const auto is_within = [&](double distance) {
-    if (!scale.limit()) return true;
-    return distance <= *scale.limit() && distance >= scale.limit_under().value_or(distance);
-  };
+  MapCounts counts{shares_of(map, scale.bar()), {}};
   for (const MapCell& cell : map.cells) {
-    const auto area = static_cast<double>(cell.share);
-    if (scale.is_left_out(cell)) {
-      counts.left_out += area;
-      continue;
-    }
-    const float sum = cell.estimate[0] + cell.estimate[1] + cell.estimate[2];
-    counts.mean += area * map.unit * static_cast<double>(sum) / 3;
-    if (scale.is_unresolved(cell)) counts.unresolved += area;
-    if (scale.is_without_side(cell)) {
-      counts.no_side += area;
-      continue;
-    }
-    const double distance = scale.distance_of(cell), share = scale.share_of(distance);
-    if (is_within(distance)) counts.within += area;
-    if (share > 1) {
-      counts.above += area;
-    } else if (share < 0) {
-      counts.below += area;
-    } else {
-      const auto bin = static_cast<size_t>(share * MapCounts::kBins);
-      counts.bins[std::min(bin, MapCounts::kBins - 1)] += area;
-    }
-  }
-  if (counts.left_out < 1) {
-    counts.mean /= 1 - counts.left_out;
-    counts.within /= 1 - counts.left_out;
+    const double share = scale.share_of(scale.distance_of(cell));
+    if (scale.is_left_out(cell) || scale.is_without_side(cell) || share < 0 || share > 1) continue;
+    const auto bin = static_cast<size_t>(share * MapCounts::kBins);
+    counts.bins[std::min(bin, MapCounts::kBins - 1)] += static_cast<double>(cell.share);
   }
   return counts;
 }

@@ -6,6 +6,7 @@
 
 #include "host/base/parallel.h"
 #include "host/survey/cell_corners.h"
+#include "host/survey/sides.h"
 #include "vkhausdorff/length.h"
 
 namespace vkh {
@@ -147,6 +148,22 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const Surv
 void add_sides(std::span<const CellSide> sides, CellMap& map) {
   map.has_sides = true;
   for (size_t i = 0; i < map.cells.size(); ++i) map.cells[i].side = sides[i].side;
+}
+
+bool may_have_cheap_sides(const SurveyOptions& options, const Mesh& b) {
+  constexpr size_t kFewFaces = 50'000;
+  const bool is_asked = options.map && options.map->sides_if_cheap && !options.is_signed;
+  return is_asked && !options.sided && b.faces.size() <= kFewFaces && !b.are_points &&
+         Shells::edges_of(b).open == 0;
+}
+
+void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const GoesOn& goes_on,
+                     CellMap& map) {
+  const Sides sides(pair, goes_on);
+  if (!sides.is_shared()) return;
+  constexpr double kLikeNought = CellMap::kUnresolved;
+  KnownSides known;
+  if (sides.find(cells, kLikeNought * map.bar / map.unit, known)) add_sides(known.of(cells), map);
 }
 
 // A width is rounded to a float, by a share of 2^-24 at most. The sums, the products and `unit`

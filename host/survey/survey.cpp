@@ -35,10 +35,11 @@ bool finds_sides(const SurveyOptions& options) { return options.is_signed || opt
 // the cells' numbers nor their bounds.
 class Bounding {
  public:
-  Bounding(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options)
+  Bounding(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options,
+           bool keeps_time_for_sides)
       : bound_(bound),
         options_(options),
-        ms_of_cells_(1000 * options.time_limit_s * (finds_sides(options) ? kPartOfCells : 1)),
+        ms_of_cells_(1000 * options.time_limit_s * (keeps_time_for_sides ? kPartOfCells : 1)),
         effort_(options.effort.value_or(default_effort(pair.on_cpu))),
         batch_(pair.on_cpu ? 1024 : 65536) {}
 
@@ -300,7 +301,8 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     check_shares(options.percentiles);
     SurveyedPair pair = on_device;
     pair.farthest = std::min(pair.farthest, options.upper);
-    Bounding bounding(pair, bound, options);
+    const bool is_cheap = may_have_cheap_sides(options, pair.b);
+    Bounding bounding(pair, bound, options, finds_sides(options) || is_cheap);
     std::optional<SidedCells> sided = sided_cells(pair, options, bounding);
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
     CellStore store =
@@ -332,6 +334,9 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
         result.statistics = statistics_of(surface, pair, options, whole->estimates());
       if (options.map) result.map = map_of(surface, pair, options, whole->estimates());
       if (result.map && sided) add_sides(sided->of(whole->cells()), *result.map);
+      if (result.map && is_cheap)
+        add_cheap_sides(
+            pair, whole->cells(), [&] { return bounding.sides_go_on(); }, *result.map);
       if (options.keeps_distribution && result.statistics) result.distribution = whole;
     }
     if (options.statistics && !result.statistics)

@@ -20,6 +20,9 @@ import zlib
 PROGRAM = sys.argv[1]
 SQUARE = "v 0 0 {z}\nv {x} 0 {z}\nv {x} 1 {z}\nv 0 1 {z}\nf 1 2 3\nf 1 3 4\n"
 # B is the plane, and A lies over it: one face at 0.25, the other from 0.25 up to 0.5.
+# From m to n on each axis, its faces outward.
+CUBE = ("v {m} {m} {m}\nv {n} {m} {m}\nv {n} {n} {m}\nv {m} {n} {m}\nv {m} {m} {n}\nv {n} {m} {n}\nv {n} {n} {n}\nv {m} {n} {n}\n"
+        "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
 ROOF = "v 0 0 0.25\nv 1 0 0.25\nv 1 1 0.25\nv 0 1 0.5\nf 1 2 3\nf 1 3 4\n"
 
 
@@ -77,6 +80,17 @@ def png(path):
         packed += body if kind == b"IDAT" else b""
         at += 12 + length
     return width, height, zlib.decompress(packed)
+
+
+def numbers_of(value):
+    """All numbers of a JSON value, without their signs, and differences of a share from 1."""
+    if isinstance(value, dict):
+        value = list(value.values())
+    if isinstance(value, list):
+        return {number for item in value for number in numbers_of(item)}
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return set()
+    return {abs(value), 1 - value} if 0 <= value <= 1 else {abs(value)}
 
 
 class See(unittest.TestCase):
@@ -190,6 +204,48 @@ class See(unittest.TestCase):
         for name in "AB":
             self.check_page_places(page.split("<h2>Worst places of " + name, 1)[1].split("</ol>", 1)[0], [row for row in points if row["from"] == name])
         self.assertEqual(page.count(">limit 0.3</text>"), 2)
+
+    # Each number of the head, the figures and the legend of a page, of the words and of the table is one of JSON's, rounded to
+    # the digits that are shown, and so is each share of area that a legend names.
+    def test_every_number_is_one_of_json(self):
+        for words, code in ((("gate", "roof.obj", "wide.obj", "--max", "0.2mm", "--unit", "mm", "--symmetric"), 1),
+                            (("distance", "roof.obj", "wide.obj", "--range", "0,0.3mm", "--unit", "mm"), 0),
+                            (("gate", "over.obj", "cube.obj", "--max", "0.1mm", "--unit", "mm"), 1)):
+            (self.folder / "cube.obj").write_text(CUBE.format(n=1, m=0))
+            (self.folder / "over.obj").write_text(CUBE.format(n=1.25, m=-0.0625))
+            done = self.run_program(*words, "--report", "out.html", "--figures-csv", "f.csv", "--json", code=code)
+            answer, page = json.loads(done.stdout), (self.folder / "out.html").read_text()
+            known = sorted(numbers_of(answer))
+            self.check_known(answer["words"], known)
+            for row in csv.DictReader((self.folder / "f.csv").read_text().splitlines()):
+                for key in ("estimate", "lower", "upper"):
+                    self.assertIn(float(row[key] or 0), [0.0, *known], row)
+            shown = [page.split("<header>")[1].split("</header>")[0].split("</h1>")[1]]
+            shown += re.findall(r"<h2>Figures of .*?</table>", page, re.S)
+            for text in re.findall(r"<(?:p|li|dd|td|small)[^>]*>([^<]+)<", "".join(shown)):
+                self.check_known(text, known)
+            legends = re.findall(r'<div class="legend".*?</div>', page, re.S)
+            self.assertEqual(len(legends), len(answer["directions"]))
+            for legend, direction in zip(legends, answer["directions"]):
+                self.check_legend(re.findall(r"</svg>([^<]+)</li>", legend), direction["map"])
+            self.assertEqual(answer["directions"][0]["map"]["signed"], "cube.obj" in words)
+
+    def check_legend(self, rows, shares):
+        names = {"over": "above", "below": "below", "no side known": "no_side", "not resolved": "unresolved", "not resolved, smaller than a pixel": "unresolved"}
+        rows = [row for row in rows if row != "beyond the tolerance"]
+        for row in rows:
+            name, share = re.fullmatch(r"(.+?)(?: [\u22120-9.e-]+ mm)?: (.+) %(?: of the area)?", row).groups()
+            share = re.sub("under |over ", "", share)
+            self.assertAlmostEqual(float(share), 100 * shares[names[name]], delta=max(6e-3 * float(share), 1e-2), msg=row)
+        self.assertEqual({names[re.split(r" [\u2212\d]|:", row)[0]] for row in rows},
+                         {name for name in ("above", "below", "no_side", "unresolved") if shares[name] > 0})
+
+    def check_known(self, text, known):
+        for number in re.findall(r"(?<![\w.])[0-9]+(?:\.[0-9]+)?(?:e[-+]?[0-9]+)?", text.replace("(", " ").replace(",", " ")):
+            value = float(number)
+            places = [value] + ([value / 100] if "%" in text else [])
+            is_known = any(abs(one - x) <= 6e-3 * abs(x) + 1e-12 for one in places for x in known)
+            self.assertTrue(is_known or value in (0, 1, 90, 95, 99, 50, 100), f"{number} in {text!r}")
 
     # The places of a page are the table's: an estimate to four digits, coordinates, the face, and what encloses it.
     def check_page_places(self, listed, rows):

@@ -159,6 +159,23 @@ TEST_CASE("a signed map tells over from under, and greys what has no side") {
   CHECK(counts_of(drawn.map, scale).no_side == doctest::Approx(0.25));
 }
 
+TEST_CASE(
+    "what has no side is within limits by its distance, and looks like nought where it is near") {
+  Drawn drawn([](const glm::dvec3& p) { return p.x < 4.5 ? 0.05 : 0.3; });
+  drawn.map.has_sides = true;
+  drawn.picture.limit = Limit{0.5, 0.5};
+  const MapScale scale(drawn.picture, drawn.options);
+  const MapCounts counts = counts_of(drawn.map, scale);
+  CHECK(counts.no_side > 0.4);
+  CHECK(counts.no_side < 0.6);  // 0.05 is within a tenth of the bar, which ends at 0.75
+  CHECK(counts.within == doctest::Approx(1));
+  for (MapCell& cell : drawn.map.cells) cell.width = 0.03f;  // 0.05 + 0.03 is not
+  CHECK(counts_of(drawn.map, scale).no_side == doctest::Approx(1));
+  drawn.picture.sided = SidedLimits{{0.5, 0.5}, {0.2, 0.2}};
+  const MapScale sided(drawn.picture, drawn.options);
+  CHECK(counts_of(drawn.map, sided).within < 0.6);  // 0.3 may be under B, and beyond its limit
+}
+
 TEST_CASE("limits that differ by side end the bar on either side") {
   Drawn drawn([](const glm::dvec3&) { return 0.3; });
   drawn.map.has_sides = true;

@@ -325,6 +325,32 @@ TEST_CASE("a cell with more faces about it than a device examines has true estim
   }
 }
 
+TEST_CASE("a map has sides where they cost little") {
+  const Mesh a = icosphere(1.2, 2);
+  const auto sides_against = [&](const Mesh& b, SurveyOptions options) {
+    const SurveyResult r = survey_of(a, b, options);
+    REQUIRE(r.map);
+    CHECK(r.sides.has_value() == options.is_signed);
+    size_t over = 0;
+    for (const MapCell& cell : r.map->cells) over += cell.side == SurfaceSide::kOver ? 1 : 0;
+    CHECK((over == 0 || over == r.map->cells.size()));
+    CHECK(r.map->has_sides == (over > 0));
+    return r.map->has_sides;
+  };
+  SurveyOptions options;
+  options.map = MapOptions{.sides_if_cheap = true};
+  options.effort = 2000;
+  CHECK(sides_against(icosphere(1, 2), options));
+  CHECK_FALSE(sides_against(square_patch(2, 0.0), options));  // it is open
+  CHECK_FALSE(sides_against(joined(icosphere(1, 1), translated(icosphere(1, 1), {0.3, 0, 0})),
+                            options));                          // it crosses itself
+  CHECK_FALSE(sides_against(uv_sphere(1, 160, 160), options));  // it is large
+  options.map->sides_if_cheap = false;
+  CHECK_FALSE(sides_against(icosphere(1, 2), options));
+  options.is_signed = true;
+  CHECK(sides_against(icosphere(1, 2), options));
+}
+
 TEST_CASE("one stray triangle does not move the end of the colours") {
   Mesh a = square_patch(8, 0.0);
   for (DVec3& v : a.vertices) v.z = 0.001 * (1 + v.x);

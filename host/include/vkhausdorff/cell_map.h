@@ -17,6 +17,9 @@ struct MapOptions {
   double pixels = 1000;  ///< A's diagonal in pixels: no cell of half a pixel's area is split
   /// The distance at the end of the colours, in the files' units; none: `CellMap::bar` finds one.
   std::optional<double> bar = {};
+  /// Sides are wanted where they cost little: B has 50,000 faces at most, and an inside that is
+  /// proven. CellMap::has_sides tells whether they are there.
+  bool sides_if_cheap = false;
 };
 
 /// A part of a face of A, or one of its points. The drawn distance is affine over it, with these
@@ -66,6 +69,27 @@ struct CellMap {
     return static_cast<double>(cell.width) > least &&
            static_cast<double>(cell.width) * unit > kUnresolved * end;
   }
+};
+
+/// The ends of a map's colours, in the files' units; `low` is negative where the map has sides.
+struct MapBar {
+  double low = 0, high = 1;
+  std::optional<double> limit = {}, limit_under = {};  ///< `limit_under` is negative
+
+  /// 0 at the lower end, and 1 at the upper one; what is not on the bar is outside.
+  double share_of(double distance) const;
+};
+
+/// Shares of A's area, or of its points, by a map's estimates: what the bar's colours do not tell.
+struct MapShares {
+  MapBar bar;
+  bool has_sides = false;
+  double above = 0, below = 0;  ///< outside of the bar
+  double unresolved = 0, no_side = 0;
+  double left_out = 0;  ///< by CellMap::max_distance: in none of the others
+  /// Of what is not left out: probably within the limits; without a side, within both.
+  double within = 0;
+  double mean = 0;  ///< of the distance of what is not left out, without a sign, in the files' units
 };
 
 }  // namespace vkh

@@ -2,6 +2,7 @@
 // row of a list and Python fill it in; the program turns it into an answer by the steps of Asking.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -69,8 +70,10 @@ struct Question {
   std::optional<Length> max_distance;  ///< figures leave out what is farther; none: nothing
   /// Answer::metrics is wanted, of both directions; of percentiles, theirs alone is sought.
   std::optional<MetricsOptions> metrics;
-  double map_pixels = 0;                ///< MapOptions::pixels of a map of A by cells; 0: none
-  std::optional<Length> map_bar;        ///< MapOptions::bar; none: the limit decides, or the map
+  double map_pixels = 0;  ///< MapOptions::pixels of a map of A by cells; 0: none
+  /// The ends of the map's colours; none: the limit decides, or the map.
+  std::optional<std::array<Length, 2>> map_range;
+  bool map_sides = false;               ///< MapOptions::sides_if_cheap
   std::optional<uint64_t> effort;       ///< SurveyOptions::effort
   std::optional<double> survey_time_s;  ///< the time of each survey; none: as the rest
   bool certificate = false;             ///< Answer::proof_a is wanted

@@ -102,7 +102,8 @@ struct SurveyResult {
   std::optional<FieldSummary> summary = {};
   std::optional<Statistics> statistics;
   std::optional<SignedFigures> sides = {};
-  std::optional<CellMap> map = {};  ///< none where A has no area
+  std::optional<CellMap> map = {};       ///< none where A has no area
+  std::optional<MapShares> shares = {};  ///< those that pictures of the map name
   /// With SurveyOptions::keeps_distribution and `statistics`: it refers to the surveyed A.
   std::shared_ptr<Distribution> distribution = {};
   SurveyEnd ended = SurveyEnd::kCancelled;
