@@ -95,13 +95,10 @@ class AllFaces {
   TriangleTree tree_;
 };
 
-// Whether the faces that the bounds name may not be those that are closest at the corners: a cell
-// with more faces of B about it than a device examines has one lower bound at two corners or more.
-bool may_miss_faces(const gpu::CellBounds& b, const CellEstimate& found) {
-  const double most = std::max({found.corners[0], found.corners[1], found.corners[2]});
-  const bool has_one_bound =
-      b.lower_a == b.lower_b || b.lower_b == b.lower_c || b.lower_c == b.lower_a;
-  return has_one_bound && most > static_cast<double>(lowest(b));
+// Whether a cell has one lower bound at two corners or more, as cells have that have more faces of
+// B about them than a device examines.
+bool has_one_lower_bound(const gpu::CellBounds& b) {
+  return b.lower_a == b.lower_b || b.lower_b == b.lower_c || b.lower_c == b.lower_a;
 }
 
 // The distance, put between two bounds; their middle if there is none.
@@ -124,6 +121,25 @@ class CellEstimator {
   AllFaces all_faces() const { return AllFaces(b_); }
   CellEstimate of(const gpu::Cell& cell, const gpu::CellBounds& b) const {
     return of(cell, b, NamedFaces(b, b_));
+  }
+
+  // Whether the faces that the bounds name may not be those that are closest at the corners: they
+  // are not where they are farther than any distance over the cell, or than the middle's and the
+  // way from there.
+  bool may_miss_faces(const gpu::Cell& cell, const gpu::CellBounds& b) const {
+    constexpr double kRounding = 1e-5;
+    const NamedFaces faces(b, b_);
+    const std::array<glm::dvec3, 3> at = corners_in_frame(cell);
+    const glm::dvec3 middle = (at[0] + at[1] + at[2]) / 3.0;
+    const double of_middle = faces.distance(middle);
+    for (const glm::dvec3& corner : at) {
+      const double d = faces.distance(corner);
+      const double most =
+          std::min(static_cast<double>(b.highest), of_middle + glm::distance(corner, middle));
+      if (d > most * (1 + kRounding)) return true;
+      if (has_one_lower_bound(b) && d > static_cast<double>(lowest(b))) return true;
+    }
+    return false;
   }
 
   // Weights of 1/12 for each corner and 3/4 for the centroid make the mean of a quadratic function
@@ -210,7 +226,7 @@ Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Are
   for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       of_cell_[i] = estimator.of(cells.cell(i), cells.bounds(i));
-      if (may_miss_faces(cells.bounds(i), of_cell_[i])) coarse[block].push_back(i);
+      if (estimator.may_miss_faces(cells.cell(i), cells.bounds(i))) coarse[block].push_back(i);
     }
   });
   const auto has_some = [](const std::vector<size_t>& block) { return !block.empty(); };

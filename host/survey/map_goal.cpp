@@ -161,9 +161,12 @@ void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const Goe
                      CellMap& map) {
   const Sides sides(pair, goes_on);
   if (!sides.is_shared()) return;
-  constexpr double kLikeNought = CellMap::kUnresolved;
+  // What is nearer has the colour of nought; where all is, the worst places are to have sides.
+  constexpr double kOfLargest = 0.5;
+  const double above = std::min(CellMap::kUnresolved * map.bar / map.unit,
+                                kOfLargest * static_cast<double>(cells.reached()));
   KnownSides known;
-  if (sides.find(cells, kLikeNought * map.bar / map.unit, known)) add_sides(known.of(cells), map);
+  if (sides.find(cells, above, known)) add_sides(known.of(cells), map);
 }
 
 // A width is rounded to a float, by a share of 2^-24 at most. The sums, the products and `unit`
