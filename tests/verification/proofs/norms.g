@@ -22,7 +22,7 @@
 { A in @{both(ulp)} /\ B in @{both(ulp)} /\ C in @{both(ulp)} -> (1 + A) * (1 + B) * (1 + C) - 1 in @{both(3.001 * ulp)} }
 #@ case root: 1 / inversesqrt(x), a quotient of 2.5 ulp of an inverse root of 2, and a rounding
 { I in @{both(2 * ulp)} /\ Q in @{both(2.5 * ulp)} /\ T in @{both(ulp)} -> (1 + Q) * (1 + T) / (1 + I) - 1 in @{both(6 * ulp)} }
-(1 + Q) * (1 + T) / (1 + I) - 1 -> (Q + T + Q * T - I) / (1 + I);
+(1 + Q) * (1 + T) / (1 + I) - 1 -> (Q + T + Q * T - I) / (1 + I) { 1 + I <> 0 };
 #@ case sqrt_up, over 2^-38
 { R in @{both(6 * ulp)} /\ T in @{both(ulp)} -> (1 + R) * @{1 + (sqrt_up + up) * kUlp} * (1 + T) >= 1 }
 #@ case sqrt_down, over 2^-38

@@ -30,7 +30,7 @@ d :quotient= e * 1;
   -> d - (RH + RL - 1 - X) / (1 + X) in @{both(220 * ulp * ulp)} /\ d in @{both(12.3 * ulp)} }
 d - (RH + RL - 1 - X) / (1 + X)
   -> (d - d_exact) + (e - e_exact) - (m - m_exact) + (e3 - e3_exact) + (e2 - e2_exact) + (e1 - e1_exact) - (E - X)
-     + (RH + RL - 1 - X) * X / (1 + X);
+     + (RH + RL - 1 - X) * X / (1 + X) { 1 + X <> 0 };
 RH - (1 + P) -> (RH - 1) - P;
 e3_exact -> (e2 - e2_exact) + (e1 - e1_exact) + (RH - 1) + RL;
 RH + RL - 1 - X -> (RH - 1) + RL - X;
