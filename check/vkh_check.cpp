@@ -15,6 +15,7 @@
 #include "check/polygons.h"
 #include "host/base/decimal.h"
 #include "host/base/input_file.h"
+#include "host/base/output_file.h"
 #include "host/base/system.h"
 #include "host/read/corners_hash.h"
 #include "host/read/file_mesh_builder.h"
@@ -29,6 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Arguments {
   std::string certificate, mesh[2];
+  std::vector<std::string> corners;  ///< the files to write them to: A's and B's, or none
   size_t threads = thread_count();
   bool is_quiet = false;
 };
@@ -194,12 +196,24 @@ std::string described(const Certificate& certificate, size_t which) {
   return out;
 }
 
+/// Writes the corners of both meshes for check/proofs, whose theorem begins with them.
+void write_corners(const Arguments& arguments, const Mesh* mesh) {
+  const std::vector<std::string> inputs = {arguments.certificate, arguments.mesh[0],
+                                           arguments.mesh[1]};
+  for (const size_t which : {0U, 1U}) {
+    const OutputFile output("--corners", arguments.corners[which], inputs);
+    output.write(corner_bytes(mesh[which], 0, mesh[which].faces.size()));
+  }
+  std::printf("corners written; nothing is proven yet\n");
+}
+
 void check_all(const Arguments& arguments) {
   const Clock::time_point start = Clock::now();
   const std::vector<unsigned char> file = read_file(arguments.certificate);
   const Certificate certificate = read_certificate(file);
   const Mesh mesh[] = {read(certificate, 0, arguments.mesh[0]),
                        read(certificate, 1, arguments.mesh[1])};
+  if (!arguments.corners.empty()) return write_corners(arguments, mesh);
   const PlacedMesh placed[] = {{mesh[0], certificate.read[0].placement},
                                {mesh[1], certificate.read[1].placement}};
   const int unit = std::min(placed[0].exponent(), placed[1].exponent());
@@ -246,6 +260,9 @@ int run(const std::vector<std::string>& words) {
   app.add_option("CERTIFICATE", arguments.certificate)->required();
   app.add_option("A", arguments.mesh[0])->required();
   app.add_option("B", arguments.mesh[1])->required();
+  app.add_option("--corners", arguments.corners,
+                 "Only write the corners of A and B to these two files, for vkh_check_proven")
+      ->expected(2);
   app.add_option("--threads", arguments.threads, "One a core")->check(CLI::Range(1, 1024));
   app.add_flag("--quiet", arguments.is_quiet, "The answer alone, and no progress");
   try {
@@ -260,6 +277,10 @@ int run(const std::vector<std::string>& words) {
     return complain(std::string("refused: ") + refused.what(), kRefused);
   } catch (const Broken& broken) {
     return complain(arguments.certificate + ": " + broken.what(), kBroken);
+  } catch (const UsageError& error) {  // over --corners
+    return complain(error.what(), kUsage);
+  } catch (const OutputError& error) {
+    return complain(error.what(), kNotWritten);
   } catch (const std::exception& error) {  // an error in a mesh, mostly, or no memory
     return complain(error.what(), kBroken);
   }

@@ -1,5 +1,6 @@
 #include "host/read/corners_hash.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "vkhausdorff/sha256.h"
@@ -14,15 +15,23 @@ void append(std::string& out, double value) {
 
 }  // namespace
 
+std::string corner_bytes(const Mesh& mesh, size_t first, size_t faces) {
+  const size_t end = first + std::min(faces, mesh.faces.size() - first);
+  std::string out;
+  out.reserve((end - first) * 9 * sizeof(double));
+  for (size_t face = first; face < end; ++face) {
+    for (int i = 0; i < 9; ++i) append(out, mesh.vertices[mesh.faces[face][i / 3]][i % 3]);
+  }
+  return out;
+}
+
 std::string sha256_of_corners(const Mesh& mesh) {
-  constexpr size_t kPiece = size_t{1} << 20;
+  constexpr size_t kPiece = size_t{1} << 14;  // faces
   std::string piece;
   size_t face = 0;
   return sha256_of_pieces([&]() -> std::string_view {
-    piece.clear();
-    for (; face < mesh.faces.size() && piece.size() < kPiece; ++face) {
-      for (int i = 0; i < 9; ++i) append(piece, mesh.vertices[mesh.faces[face][i / 3]][i % 3]);
-    }
+    piece = corner_bytes(mesh, face, kPiece);
+    face += std::min(kPiece, mesh.faces.size() - face);
     return piece;
   });
 }

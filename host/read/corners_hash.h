@@ -1,4 +1,4 @@
-// The SHA-256 of a mesh's faces as positions, by which a certificate names its mesh.
+// A mesh's faces as positions, and their SHA-256, by which a certificate names its mesh.
 #pragma once
 
 #include <string>
@@ -7,8 +7,11 @@
 
 namespace vkh {
 
-/// The hash of nine doubles a face, little-endian, -0 as 0: 64 hexadecimal digits. Empty: no
-/// library.
+/// Nine doubles a face, little-endian, -0 as 0, of so many faces from `first`, or of all that
+/// follow.
+std::string corner_bytes(const Mesh& mesh, size_t first, size_t faces);
+
+/// The hash of all corner_bytes: 64 hexadecimal digits. Empty: no library.
 std::string sha256_of_corners(const Mesh& mesh);
 
 }  // namespace vkh

@@ -1,10 +1,13 @@
 """Certificates that the program writes, given to vkh_check: every way to ask and to end.
 
 usage: program_test.py VKHAUSDORFF VKH_CHECK
+VKH_CHECK_PROVEN, if it is set, has to accept them, too.
 """
 
+import hashlib
 import json
 import math
+import os
 import pathlib
 import random
 import subprocess
@@ -13,6 +16,7 @@ import tempfile
 import unittest
 
 PROGRAM, CHECK = sys.argv[1:3]
+PROVEN = os.environ.get("VKH_CHECK_PROVEN", "")
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
@@ -70,6 +74,10 @@ class Program(unittest.TestCase):
         checked = self.run_here(CHECK, "out.vhc", a, b)
         self.assertEqual(checked.returncode, 0, checked.stderr + checked.stdout)
         self.assertTrue(checked.stdout.startswith("proven: "), checked.stdout)
+        if PROVEN:
+            self.assertEqual(self.run_here(CHECK, "out.vhc", a, b, "--corners", "a.corners", "b.corners").returncode, 0)
+            proven = self.run_here(PROVEN, "out.vhc", "a.corners", "b.corners")
+            self.assertEqual(proven.returncode, 0, proven.stderr)
         return json.loads(done.stdout)
 
     def test_every_way_to_ask(self):
@@ -116,6 +124,22 @@ class Program(unittest.TestCase):
         self.certify("distance", "a.obj", "b.obj")
         for a, b in (("b.obj", "a.obj"), ("a.obj", "wide.off"), ("same.obj", "same.obj")):
             self.assertEqual(self.run_here(CHECK, "out.vhc", a, b).returncode, 1)
+
+    def test_corners(self):
+        """The certificate's hashes are those of the files that --corners writes."""
+        self.certify("distance", "a.obj", "quads.off")
+        done = self.run_here(CHECK, "out.vhc", "a.obj", "quads.off", "--corners", "a.corners", "b.corners")
+        self.assertEqual((done.returncode, done.stdout), (0, "corners written; nothing is proven yet\n"), done.stderr)
+        certificate = (self.folder / "out.vhc").read_bytes()
+        for name, at in (("a.corners", 112), ("b.corners", 144)):
+            self.assertEqual(hashlib.sha256((self.folder / name).read_bytes()).digest(), certificate[at:at + 32])
+        self.assertEqual((self.folder / "b.corners").stat().st_size, 72 * 4)
+        for words in (["a.corners"], ["a.obj", "b.corners"], ["b.corners", "out.vhc"]):
+            done = self.run_here(CHECK, "out.vhc", "a.obj", "quads.off", "--corners", *words)
+            self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual((self.folder / "out.vhc").read_bytes(), certificate)
+        done = self.run_here(CHECK, "out.vhc", "a.obj", "b.obj", "--corners", "a.corners", "b.corners")
+        self.assertEqual(done.returncode, 1, done.stdout)
 
     def test_usage(self):
         for words in (["distance", "a.obj", "b.obj", "--certificate", "out.txt"],

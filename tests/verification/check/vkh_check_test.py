@@ -1,11 +1,13 @@
 """vkh_check on certificates that are written here by hand, with squared distances that are known or computed in fractions.
 
 usage: vkh_check_test.py VKH_CHECK [NM]
+VKH_CHECK_PROVEN, if it is set, has to answer the same.
 """
 
 import base64
 import hashlib
 import math
+import os
 import pathlib
 import random
 import shutil
@@ -17,6 +19,7 @@ import unittest
 from fractions import Fraction
 
 PROGRAM = sys.argv[1]
+PROVEN_CHECKER = os.environ.get("VKH_CHECK_PROVEN", "")
 PROVEN, REFUSED, USAGE, BROKEN = 0, 1, 2, 4
 FLAT = [((0, 0, 0), (1, 0, 0), (0, 1, 0))]
 HIGH = [((0, 0, .25), (1, 0, .25), (0, 1, .25))]
@@ -122,7 +125,16 @@ class Check(unittest.TestCase):
         lines = done.stderr.splitlines()
         self.assertEqual(len(lines), 0 if code == PROVEN else 1)
         self.assertEqual(done.stdout == "", code != PROVEN)
+        if PROVEN_CHECKER:
+            self.ask_the_proven_one(code, data, **names)
         return done.stdout
+
+    def ask_the_proven_one(self, code, data, **names):
+        """vkh_check_proven answers the same, for corners that can be had."""
+        corners = [self.folder / "a.corners", self.folder / "b.corners"]
+        if self.run_it(data, "--corners", *corners, **names).returncode == 0:
+            done = subprocess.run([PROVEN_CHECKER, self.folder / "c.vhc", *corners], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
 
     def test_one_triangle_over_another(self):
         def of(lower, upper):
