@@ -108,6 +108,17 @@ else()
   message(STATUS "Not built here: vkh_check, which needs libgmp-dev and libssl-dev")
 endif()
 
+# The checker that Coq extracts from its own proof (docs/proofs.md). Only `ninja nightly` builds it.
+find_program(VKH_COQC coqc)
+find_program(VKH_OCAMLFIND ocamlfind)
+if(TARGET vkh_check AND NOT VKH_SANITIZE AND VKH_COQC AND VKH_OCAMLFIND)
+  file(GLOB VKH_PROVEN_SOURCES CONFIGURE_DEPENDS check/proofs/*)
+  set(VKH_CHECK_PROVEN ${CMAKE_BINARY_DIR}/proofs/vkh_check_proven)
+  add_custom_command(OUTPUT ${VKH_CHECK_PROVEN} COMMAND ${PROJECT_SOURCE_DIR}/check/proofs/build ${CMAKE_BINARY_DIR}/proofs
+                     DEPENDS ${VKH_PROVEN_SOURCES} VERBATIM)
+  add_custom_target(vkh_check_proven DEPENDS ${VKH_CHECK_PROVEN})
+endif()
+
 add_subdirectory(tools)
 if(VKH_EXAMPLES)
   add_subdirectory(examples)

@@ -1,7 +1,7 @@
-"""Spoils certificates of small meshes: both checkers have to answer the same, and to accept nothing that is wrong.
+"""Spoils certificates of small meshes: all checkers have to answer the same, and to accept nothing that is wrong.
 
 usage: attack_test.py [--pairs N] [--seed S] [--seconds T] [--full] [unittest's own]
-VKH_CHECK is the program; without it vkh_check.py alone is asked. Files of faults are kept in VKH_ATTACK_KEEP.
+VKH_CHECK and VKH_CHECK_PROVEN are programs; without them vkh_check.py alone is asked. Files of faults are kept in VKH_ATTACK_KEEP.
 """
 
 import argparse
@@ -116,7 +116,7 @@ class Cases(unittest.TestCase):
             done += 1
         print(f"{done} pairs, {self.checkers.count} certificates, of which proven {self.checkers.codes.get(0, 0)}, refused "
               f"{self.checkers.codes.get(1, 0)}, broken {self.checkers.codes.get(4, 0)}; "
-              f"{PROGRAM or 'vkh_check.py alone'}", flush=True)
+              f"{PROGRAM or 'vkh_check.py alone'}; {self.checkers.proven_count} to vkh_check_proven", flush=True)
         self.settle()
 
     def test_every_truncation(self):

@@ -1,9 +1,10 @@
-"""Both checkers at once: VKH_CHECK, if it is set, and check/vkh_check.py, in this process."""
+"""The checkers at once: VKH_CHECK and VKH_CHECK_PROVEN, if they are set, and check/vkh_check.py, in this process."""
 
 import decimal
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 from fractions import Fraction
@@ -13,6 +14,7 @@ sys.path.insert(0, str(ROOT / "check"))
 import vkh_check  # noqa: E402
 
 PROGRAM = os.environ.get("VKH_CHECK", "")
+PROVEN = os.environ.get("VKH_CHECK_PROVEN", "")
 SECONDS = 30
 CLAIM = re.compile(r"^proven: (\S+) <= h\((A,B|B,A)\) <= (\S+)$", re.MULTILINE)
 EXACT = re.compile(r"exactly, squared, in units of 4\^(-?\d+): (\d+)/(\d+) <= (\d+)/(\d+) \(witness\); (\d+)/(\d+) \(leaves\) <= (\d+)/(\d+)")
@@ -28,13 +30,13 @@ class Checkers:
 
     def __init__(self, folder, keep):
         self.folder, self.keep, self.faults, self.count, self.codes = pathlib.Path(folder), pathlib.Path(keep), [], 0, {}
-        self.certificate = self.folder / "c.vhc"
+        self.certificate, self.proven_count = self.folder / "c.vhc", 0
 
     def meshes(self, a, b, ending="obj"):
         self.paths = [self.folder / f"{name}.{ending}" for name in "ab"]
         for path, data in zip(self.paths, (a, b)):
             path.write_bytes(data)
-        self.meshes_read = {}
+        self.meshes_read, self.latest, self.written = {}, {}, {}
 
     def read(self, path, given):
         """vkh_check.read_mesh with a cache."""
@@ -46,7 +48,27 @@ class Checkers:
                 self.meshes_read[key] = error
         if isinstance(self.meshes_read[key], ValueError):
             raise self.meshes_read[key]
+        self.latest[path] = self.meshes_read[key][0]
         return self.meshes_read[key]
+
+    def corners(self):
+        """The files of both meshes' corners, as they were read last."""
+        out = []
+        for path in map(str, self.paths):
+            out.append(path + ".corners")
+            if path in self.latest and self.latest[path] is not self.written.get(path):
+                self.written[path] = self.latest[path]
+                flat = [x + 0.0 for face in self.latest[path] for p in face for x in p]  # -0 becomes 0
+                pathlib.Path(out[-1]).write_bytes(struct.pack(f"<{len(flat)}d", *flat))
+        return out
+
+    def proven_checker(self, code, text):
+        """A fault of vkh_check_proven, or None. It begins with corners: what is wrong with files and polygons is not its question."""
+        if code and (text == "it is of another mesh" or "cannot be read" in text or text.startswith(str(self.folder))):
+            return None
+        self.proven_count += 1
+        done = subprocess.run([PROVEN, self.certificate, *self.corners()], capture_output=True, timeout=SECONDS)
+        return None if done.returncode == code else f"vkh_check_proven answers {done.returncode}: {done.stderr.decode()[-500:]}"
 
     def fault(self, what):
         folder = self.keep / f"{len(self.faults):04}"
@@ -94,6 +116,9 @@ class Checkers:
                 exact = EXACT.findall(out)
                 if exact and not self.is_same(exact[-1], certificate):
                     return self.fault(f"{what}: other squares: {exact[-1]}, {text}")
+        fault = self.proven_checker(code, text) if PROVEN else None
+        if fault:
+            return self.fault(f"{what}: vkh_check.py answers {code}: {text}; {fault}")
         return code, [] if certificate is None else CLAIM.findall(text), certificate
 
     @staticmethod

@@ -1,0 +1,252 @@
+(** The theorem: what the check accepts holds for all meshes whose corners are within the deltas of
+    those that were given. *)
+From Coq Require Import Reals List Bool ZArith Lia Lra Psatz.
+From VkhCheck Require Import Statement Geometry Checker Sound.
+Open Scope R_scope.
+
+(** * The numbers of a certificate and the meshes that it is about *)
+
+Definition value (x : dyadic) : R := IZR (mantissa x) * powerRZ 2 (exponent x).
+
+Definition step (g : grid) : R := powerRZ 2 (power g) / IZR (scale g).
+
+(** The mesh whose corners are these integers times the grid's step. *)
+Definition mesh (g : grid) (m : list itriangle) : list triangle := real_mesh (step g) m.
+
+Definition holds (it : direction) (a b : list triangle) : Prop :=
+  at_most a b (value (upper it)) /\ at_least a b (value (lower it)).
+
+(** * Powers of two *)
+
+Lemma two_power_positive i : 0 < powerRZ 2 i.
+Proof. apply powerRZ_lt. lra. Qed.
+
+Lemma two_power_sum i j : powerRZ 2 (i + j) = powerRZ 2 i * powerRZ 2 j.
+Proof. apply powerRZ_add. lra. Qed.
+
+Lemma two_power_integer i : (0 <= i)%Z -> IZR (2 ^ i) = powerRZ 2 i.
+Proof.
+  intros. rewrite <- (Z2Nat.id i) at 1 by assumption.
+  rewrite <- pow_IZR, pow_powerRZ. now rewrite Z2Nat.id.
+Qed.
+
+Lemma aligned_value x least : (least <= exponent x)%Z ->
+  IZR (Z.shiftl (mantissa x) (exponent x - least)) * powerRZ 2 least = value x.
+Proof.
+  intros. rewrite shiftl_real, two_power_integer by lia. unfold value.
+  replace (powerRZ 2 (exponent x)) with (powerRZ 2 (exponent x - least + least)) by (f_equal; lia).
+  rewrite two_power_sum. ring.
+Qed.
+
+Lemma claimed_value c side a b :
+  value (claimed c side a b) = value c + IZR side * (value a + value b).
+Proof.
+  unfold claimed. set (least := Z.min (exponent c) (Z.min (exponent a) (exponent b))). unfold value at 1; cbn [mantissa exponent].
+  rewrite plus_IZR, mult_IZR, plus_IZR.
+  rewrite <- (aligned_value c least), <- (aligned_value a least), <- (aligned_value b least)
+    by (unfold least; lia). ring.
+Qed.
+
+Lemma step_positive g : (0 < scale g)%Z -> 0 < step g.
+Proof.
+  intros S. apply IZR_lt in S. apply Rmult_lt_0_compat; [ apply two_power_positive | ].
+  now apply Rinv_0_lt_compat.
+Qed.
+
+Lemma squared_sound g x n d : (0 < scale g)%Z -> squared g x = (n, d) ->
+  (0 < d)%Z /\ step g * step g * IZR n = value x * value x * IZR d.
+Proof.
+  intros S. unfold squared. set (up := (exponent x - power g)%Z).
+  assert (Sr : 0 < IZR (scale g)) by now apply IZR_lt.
+  assert (E : powerRZ 2 (exponent x) = powerRZ 2 up * powerRZ 2 (power g)).
+  { rewrite <- two_power_sum. f_equal. unfold up. lia. }
+  unfold value, step. rewrite E. pose proof (two_power_positive (power g)).
+  destruct (Z.leb_spec 0 up); intros T; apply pair_equal_spec in T; destruct T; subst n d.
+  - split; [ lia | ]. rewrite shiftl_real, two_power_integer, !mult_IZR by lia.
+    replace (2 * up)%Z with (up + up)%Z by lia. rewrite two_power_sum. field. lra.
+  - split; [ rewrite Z.shiftl_mul_pow2, Z.mul_1_l by lia; apply Z.pow_pos_nonneg; lia | ].
+    rewrite shiftl_real, two_power_integer, !mult_IZR by lia.
+    assert (U : powerRZ 2 up * powerRZ 2 up * powerRZ 2 (-2 * up) = 1).
+    { rewrite <- !two_power_sum. replace (up + up + -2 * up)%Z with 0%Z by lia. reflexivity. }
+    transitivity (powerRZ 2 (power g) * powerRZ 2 (power g) * IZR (mantissa x) * IZR (mantissa x)
+                  * (powerRZ 2 up * powerRZ 2 up * powerRZ 2 (-2 * up))); [ | ring ].
+    rewrite U. field. lra.
+Qed.
+
+Lemma value_positive x : (0 <= mantissa x)%Z -> 0 <= value x.
+Proof.
+  intros M. apply IZR_le in M. apply Rmult_le_pos; [ exact M | ].
+  apply Rlt_le, two_power_positive.
+Qed.
+
+(** * The index *)
+
+Lemma find_empty i : find i Empty = None.
+Proof. now destruct i. Qed.
+
+Lemma find_put x y : forall i j t, find j (put i x t) = Some y -> y = x \/ find j t = Some y.
+Proof.
+  intros i. induction i as [i IH | i IH | ]; intros j t; destruct t as [ | even here odd];
+    destruct j as [j | j | ]; cbn [put split find]; intros H;
+    try (destruct (IH _ _ H) as [E | E]; [ now left | rewrite ?find_empty in E ]);
+    rewrite ?find_empty in *; try discriminate; try (now right); left; congruence.
+Qed.
+
+Lemma index_from_sound faces : forall i so_far s t,
+  find s (index_from i faces so_far) = Some t -> In t faces \/ find s so_far = Some t.
+Proof.
+  induction faces as [ | face others IH]; intros i so_far s t H; [ now right | ].
+  cbn [index_from] in H. apply IH in H. destruct H as [H | H]; [ left; now right | ].
+  apply find_put in H. destruct H as [H | H]; [ left; left; congruence | now right ].
+Qed.
+
+Lemma index_sound faces s t : find s (index faces) = Some t -> In t faces.
+Proof.
+  intros H. apply index_from_sound in H. destruct H as [H | H]; [ exact H | ].
+  rewrite find_empty in H. discriminate.
+Qed.
+
+(** * Meshes that are within the deltas *)
+
+Lemma within_back delta m m' t' : within delta m m' -> In t' m' -> exists t, In t m /\ moved delta t t'.
+Proof.
+  intros W. induction W as [ | s s' r r' M W IH]; intros I; [ destruct I | ].
+  destruct I as [I | I].
+  - subst s'. exists s. split; [ now left | exact M ].
+  - destruct (IH I) as (t & T & M'). exists t. split; [ now right | exact M' ].
+Qed.
+
+Lemma within_forth delta m m' t : within delta m m' -> In t m -> exists t', In t' m' /\ moved delta t t'.
+Proof.
+  intros W. induction W as [ | s s' r r' M W IH]; intros I; [ destruct I | ].
+  destruct I as [I | I].
+  - subst s. exists s'. split; [ now left | exact M ].
+  - destruct (IH I) as (t' & T & M'). exists t'. split; [ now right | exact M' ].
+Qed.
+
+Lemma surface_back delta m m' p' : within delta m m' -> surface m' p' ->
+  exists p, surface m p /\ distance p p' <= delta.
+Proof.
+  intros W (t' & T & a & b & c & A & B & C & S & E).
+  destruct (within_back _ _ _ _ W T) as (t & I & M).
+  exists (weighted a b c t). split.
+  - exists t. split; [ exact I | ]. now exists a, b, c.
+  - subst p'. now apply weighted_near.
+Qed.
+
+Lemma surface_forth delta m m' p : within delta m m' -> surface m p ->
+  exists p', surface m' p' /\ distance p p' <= delta.
+Proof.
+  intros W (t & T & a & b & c & A & B & C & S & E).
+  destruct (within_forth _ _ _ _ W T) as (t' & I & M).
+  exists (weighted a b c t'). split.
+  - exists t'. split; [ exact I | ]. now exists a, b, c.
+  - subst p. now apply weighted_near.
+Qed.
+
+Lemma at_most_within a b a' b' da db u :
+  within da a a' -> within db b b' -> at_most a b u -> at_most a' b' (u + (da + db)).
+Proof.
+  intros A B H p' P'. destruct (surface_back _ _ _ _ A P') as (p & P & Dp).
+  destruct (H p P) as (q & Q & E). destruct (surface_forth _ _ _ _ B Q) as (q' & Q' & Dq).
+  exists q'. split; [ exact Q' | ].
+  pose proof (triangle_inequality p' p q'). pose proof (triangle_inequality p q q').
+  rewrite (distance_symmetric p' p) in *. lra.
+Qed.
+
+Lemma at_least_within a b a' b' da db l :
+  within da a a' -> within db b b' -> at_least a b l -> at_least a' b' (l - (da + db)).
+Proof.
+  intros A B (p & P & H). destruct (surface_forth _ _ _ _ A P) as (p' & P' & Dp).
+  exists p'. split; [ exact P' | ]. intros q' Q'.
+  destruct (surface_back _ _ _ _ B Q') as (q & Q & Dq). specialize (H q Q).
+  pose proof (triangle_inequality p p' q). pose proof (triangle_inequality p' q' q).
+  rewrite (distance_symmetric q' q) in *. lra.
+Qed.
+
+(** * The theorem *)
+
+Lemma check_direction_sound g bits da db it x y x' y' : (0 < scale g)%Z -> (0 <= bits)%Z ->
+  check_direction g bits da db it x y (index y) = true ->
+  within (value da) (mesh g x) x' -> within (value db) (mesh g y) y' -> holds it x' y'.
+Proof.
+  intros S Bits H X Y. unfold check_direction in H.
+  set (most := claimed (upper it) (-1) da db) in *.
+  set (least := claimed (lower it) 1 da db) in *.
+  destruct (squared g most) as [n d] eqn:M. destruct (squared g least) as [nl dl] eqn:L.
+  destruct (squared_sound _ _ _ _ S M) as [D Bound].
+  destruct (squared_sound _ _ _ _ S L) as [Dl Boundl].
+  rewrite !andb_true_iff, Z.leb_le in H. destruct H as [[M0 Low] Faces].
+  pose proof (step_positive g S) as G.
+  assert (Up : at_most x' y' (value (upper it))).
+  { replace (value (upper it)) with (value most + (value da + value db))
+      by (unfold most; rewrite claimed_value; lra).
+    apply (at_most_within (mesh g x) (mesh g y)); try assumption.
+    apply (check_faces_sound y (index y) (step g) (value most) n d bits) with (its := parts it);
+      try assumption.
+    - apply index_sound.
+    - now apply value_positive.
+    - lra. }
+  split; [ exact Up | ].
+  destruct (Z.leb_spec (mantissa (lower it)) 0) as [Z0 | Z0].
+  - destruct x as [ | face x0]; [ discriminate | ]. inversion X as [ | s s' r r' Ms Ws]; subst.
+    exists (corner0 s'). split; [ exists s'; split; [ now left | apply covers_corner0 ] | ].
+    intros q _. apply Rle_trans with 0; [ | apply distance_positive ].
+    apply IZR_le in Z0. unfold value. pose proof (two_power_positive (exponent (lower it))). nra.
+  - rewrite andb_true_iff, Z.leb_le in Low. destruct Low as [L0 Low].
+    replace (value (lower it)) with (value least - (value da + value db))
+      by (unfold least; rewrite claimed_value; lra).
+    apply (at_least_within (mesh g x) (mesh g y)); try assumption.
+    apply (check_lower_sound it (step g) (value least) nl dl); try assumption.
+    + now apply value_positive.
+    + lra.
+Qed.
+
+(** What the check accepts is true of a and b, and of all meshes within the deltas of them. *)
+Theorem check_sound g it a b : check g it a b = true ->
+  forall a' b', within (value (delta_a it)) (mesh g a) a' ->
+                within (value (delta_b it)) (mesh g b) b' ->
+  holds (there it) a' b' /\ match back it with None => True | Some it' => holds it' b' a' end.
+Proof.
+  unfold check. rewrite !andb_true_iff, Z.ltb_lt, Z.leb_le. intros [[[S Bits] H] Hb] a' b' A B.
+  split.
+  - now apply (check_direction_sound g (cut_bits it) (delta_a it) (delta_b it) _ a b).
+  - destruct (back it) as [it' | ]; [ | exact I ].
+    apply (check_direction_sound g (cut_bits it) (delta_b it) (delta_a it) _ b a); try assumption.
+    unfold check_direction in *.
+    replace (claimed (upper it') (-1) (delta_b it) (delta_a it))
+      with (claimed (upper it') (-1) (delta_a it) (delta_b it)).
+    replace (claimed (lower it') 1 (delta_b it) (delta_a it))
+      with (claimed (lower it') 1 (delta_a it) (delta_b it)).
+    assumption.
+    all: unfold claimed; f_equal; try lia; rewrite (Z.min_comm (exponent (delta_a it))); lia.
+Qed.
+
+(** * The same of h(A,B), as a supremum of infima *)
+
+Lemma infimum b p : (exists q, surface b q) -> exists d, distance_to b p d.
+Proof.
+  intros (q0 & Q0).
+  destruct (completeness (fun r => exists q, surface b q /\ r = - distance p q)) as (m & Up & Least).
+  - exists 0. intros r (q & _ & E). pose proof (distance_positive p q). lra.
+  - now exists (- distance p q0), q0.
+  - exists (- m). split.
+    + intros q Q. assert (- distance p q <= m) by (apply Up; now exists q). lra.
+    + intros d' H. assert (m <= - d').
+      { apply Least. intros r (q & Q & E). specialize (H q Q). lra. }
+      lra.
+Qed.
+
+Corollary interval it a b h : holds it a b -> hausdorff a b h ->
+  value (lower it) <= h <= value (upper it).
+Proof.
+  intros [Up (p & P & Low)] [Bound Least]. split.
+  - destruct (Up p P) as (q0 & Q0 & _).
+    destruct (infimum b p (ex_intro _ q0 Q0)) as (d & D).
+    apply Rle_trans with d; [ now apply D | ]. apply Bound. now exists p.
+  - apply Least. intros d (p' & P' & D & _). destruct (Up p' P') as (q & Q & E).
+    specialize (D q Q). lra.
+Qed.
+
+Print Assumptions check_sound.
+Print Assumptions interval.

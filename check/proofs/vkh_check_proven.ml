@@ -1,0 +1,45 @@
+(* Checks a certificate of a Hausdorff distance by the program that Coq extracted from Checker.v.
+   Theorem.v says what its answer means.
+
+   usage: vkh_check_proven CERTIFICATE CORNERS_A CORNERS_B
+   Corners: 9 little-endian doubles a face, as `vkh_check CERTIFICATE A B --corners CORNERS_A CORNERS_B`
+   writes them. Exit codes: 0 proven, 1 refused, 2 usage, 4 broken. *)
+
+exception Refused of string
+
+let contents name =
+  let channel = open_in_bin name in
+  Fun.protect ~finally:(fun () -> close_in channel)
+    (fun () -> really_input_string channel (in_channel_length channel))
+
+let corners (file : Certificate_file.t) which name =
+  let data = contents name in
+  if String.length data <> 72 * file.faces.(which) then raise (Refused (name ^ ": has another number of faces"));
+  if Sha256.of_string data <> file.hashes.(which) then raise (Refused (name ^ ": has other corners (SHA-256)"));
+  data
+
+let check certificate a b =
+  let file = Certificate_file.read (contents certificate) in
+  let a = corners file 0 a in
+  let b = corners file 1 b in
+  let grid, a, b = Corners_file.read a b file.placement in
+  if not (Proven.check grid file.certificate a b) then
+    raise (Refused "the certificate does not prove its claim");
+  let say name (lower, upper) = Printf.printf "proven: %h <= %s <= %h\n" lower name upper in
+  List.iter2 say (if List.length file.bounds = 1 then [ "h(A,B)" ] else [ "h(A,B)"; "h(B,A)" ]) file.bounds;
+  Printf.printf "  for all meshes with these faces whose corners are within %h of A's and %h of B's\n"
+    file.delta.(0) file.delta.(1)
+
+let complain text code =
+  prerr_endline ("vkh_check_proven: " ^ text);
+  exit code
+
+let () =
+  match Sys.argv with
+  | [| _; certificate; a; b |] -> (
+    try check certificate a b with
+    | Refused what -> complain ("refused: " ^ what) 1
+    | Certificate_file.Broken what -> complain (certificate ^ ": " ^ what) 4
+    | Sys_error what -> complain what 4
+    | Stack_overflow | Out_of_memory -> complain "not enough memory" 4)
+  | _ -> complain "usage: vkh_check_proven CERTIFICATE CORNERS_A CORNERS_B" 2
