@@ -257,3 +257,53 @@ Definition check (g : grid) (it : certificate) (a b : list itriangle) : bool :=
      | None => true
      | Some it' => check_direction g (cut_bits it) (delta_a it) (delta_b it) it' b a (index a)
      end.
+
+(** * Where the meshes lie *)
+
+(** A turn of three rows, in units of 2^turn_power, and then a shift. *)
+Record motion := Motion {
+  turn_power : Z; row_x : ipoint; row_y : ipoint; row_z : ipoint;
+  shift_x : dyadic; shift_y : dyadic; shift_z : dyadic }.
+
+(** Coordinates times over / under, and then a motion, if there is one. *)
+Record placement := Placement { over : Z; under : Z; moved_by : option motion }.
+
+(** Corners as a file has them, in units of 2^own_power, and where they are put. *)
+Record given := Given { own_power : Z; given_faces : list itriangle; lies : placement }.
+
+(** A corner where it is put, in steps of 2^power / (under other). *)
+Definition place (p : placement) (own power other : Z) (x : ipoint) : ipoint :=
+  match moved_by p with
+  | None => times (over p * other) (shift (own - power) x)
+  | Some m =>
+    let at_ := shift (own + turn_power m - power) x in
+    let put row t := other * (over p * dot row at_
+                              + under p * Z.shiftl (mantissa t) (exponent t - power)) in
+    IPoint (put (row_x m) (shift_x m)) (put (row_y m) (shift_y m)) (put (row_z m) (shift_z m))
+  end.
+
+(** Whether all of them are whole numbers of these steps. *)
+Definition is_whole (p : placement) (own power : Z) : bool :=
+  (0 <? under p) && match moved_by p with
+  | None => power <=? own
+  | Some m => (power <=? own + turn_power m) && (power <=? exponent (shift_x m))
+              && (power <=? exponent (shift_y m)) && (power <=? exponent (shift_z m))
+  end.
+
+Fixpoint place_onto (put : ipoint -> ipoint) (faces so_far : list itriangle) : list itriangle :=
+  match faces with
+  | nil => so_far
+  | ITriangle a b c :: others =>
+    place_onto put others (ITriangle (put a) (put b) (put c) :: so_far)
+  end.
+
+Definition place_all (m : given) (power other : Z) : list itriangle :=
+  rev_append (place_onto (place (lies m) (own_power m) power other) (given_faces m) nil) nil.
+
+(** Whether a certificate proves its claim for two meshes, where they are put. Any power does for
+    which the corners are whole numbers of steps. *)
+Definition check_given (power : Z) (it : certificate) (a b : given) : bool :=
+  is_whole (lies a) (own_power a) power && is_whole (lies b) (own_power b) power
+  && (let under_a := under (lies a) in
+      let under_b := under (lies b) in
+      check (Grid power (under_a * under_b)) it (place_all a power under_b) (place_all b power under_a)).

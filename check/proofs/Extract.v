@@ -24,4 +24,4 @@ Extract Inlined Constant Z.div => "Integers.quotient".
 Extract Inlined Constant Z.sqrt => "Integers.root".
 Extract Inlined Constant negb => "not".
 
-Extraction "proven.ml" check.
+Extraction "proven.ml" check_given.

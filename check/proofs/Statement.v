@@ -31,6 +31,10 @@ Definition moved (delta : R) (s t : triangle) : Prop :=
 (** The same faces in the same order, with corners that are within delta. *)
 Definition within (delta : R) : list triangle -> list triangle -> Prop := Forall2 (moved delta).
 
+(** The faces of a mesh by the places of their corners in an array. *)
+Definition by_index (vertices : nat -> point) (faces : list (nat * nat * nat)) : list triangle :=
+  map (fun '(i, j, k) => Triangle (vertices i) (vertices j) (vertices k)) faces.
+
 (** h(A,B) <= u: every point of A has a point of B within u. *)
 Definition at_most (a b : list triangle) (u : R) : Prop :=
   forall p, surface a p -> exists q, surface b q /\ distance p q <= u.

@@ -124,6 +124,14 @@ Proof.
   - destruct (IH I) as (t' & T & M'). exists t'. split; [ now right | exact M' ].
 Qed.
 
+(** Moving the vertices of an array moves the faces that it has. *)
+Lemma within_by_index delta v v' faces : (forall i, distance (v i) (v' i) <= delta) ->
+  within delta (by_index v faces) (by_index v' faces).
+Proof.
+  intros H. induction faces as [ | [[i j] k] others IH]; constructor; [ | exact IH ].
+  repeat split; apply H.
+Qed.
+
 Lemma surface_back delta m m' p' : within delta m m' -> surface m' p' ->
   exists p, surface m p /\ distance p p' <= delta.
 Proof.
@@ -222,6 +230,110 @@ Proof.
     all: unfold claimed; f_equal; try lia; rewrite (Z.min_comm (exponent (delta_a it))); lia.
 Qed.
 
+(** * Where the meshes lie *)
+
+(** The place of a point: over / under times it, turned and shifted. *)
+Definition placed (p : placement) (x : point) : point :=
+  let r := IZR (over p) / IZR (under p) in
+  match moved_by p with
+  | None => Point (r * px x) (r * py x) (r * pz x)
+  | Some m =>
+    let put row t := powerRZ 2 (turn_power m) * (IZR (ix row) * (r * px x) + IZR (iy row) * (r * py x)
+                                                 + IZR (iz row) * (r * pz x)) + value t in
+    Point (put (row_x m) (shift_x m)) (put (row_y m) (shift_y m)) (put (row_z m) (shift_z m))
+  end.
+
+(** The mesh that was given, where it is put. *)
+Definition mesh_of (m : given) : list triangle :=
+  let corner x := placed (lies m) (real (powerRZ 2 (own_power m)) x) in
+  map (fun t => Triangle (corner (i0 t)) (corner (i1 t)) (corner (i2 t))) (given_faces m).
+
+Lemma place_onto_map put faces : forall so_far,
+  place_onto put faces so_far
+  = rev_append (map (fun t => ITriangle (put (i0 t)) (put (i1 t)) (put (i2 t))) faces) so_far.
+Proof.
+  induction faces as [ | [a b c] others IH]; intros so_far; [ reflexivity | ]. cbn. now rewrite IH.
+Qed.
+
+Lemma place_all_map m power other :
+  place_all m power other
+  = map (fun t => let put := place (lies m) (own_power m) power other in
+                  ITriangle (put (i0 t)) (put (i1 t)) (put (i2 t))) (given_faces m).
+Proof.
+  unfold place_all. rewrite place_onto_map, !rev_append_rev, !app_nil_r. apply rev_involutive.
+Qed.
+
+Lemma shifted_power x own power : (power <= own)%Z ->
+  powerRZ 2 power * IZR (Z.shiftl x (own - power)) = powerRZ 2 own * IZR x.
+Proof.
+  intros. rewrite shiftl_real, two_power_integer by lia.
+  replace (powerRZ 2 own) with (powerRZ 2 (own - power + power)) by (f_equal; lia).
+  rewrite two_power_sum. ring.
+Qed.
+
+Lemma place_real p own power other x : is_whole p own power = true -> (0 < other)%Z ->
+  real (powerRZ 2 power / (IZR (under p) * IZR other)) (place p own power other x)
+  = placed p (real (powerRZ 2 own) x).
+Proof.
+  intros W O. apply IZR_lt in O. unfold is_whole in W. rewrite andb_true_iff, Z.ltb_lt in W.
+  destruct W as [P W]. apply IZR_lt in P. unfold place, placed.
+  destruct (moved_by p) as [m | ].
+  - rewrite !andb_true_iff, !Z.leb_le in W. destruct W as [[[Wm Wx] Wy] Wz].
+    assert (Put : forall row t, (power <= exponent t)%Z ->
+      powerRZ 2 power / (IZR (under p) * IZR other)
+      * IZR (other * (over p * dot row (shift (own + turn_power m - power) x)
+                      + under p * Z.shiftl (mantissa t) (exponent t - power)))
+      = powerRZ 2 (turn_power m)
+        * (IZR (ix row) * (IZR (over p) / IZR (under p) * (powerRZ 2 own * IZR (ix x)))
+           + IZR (iy row) * (IZR (over p) / IZR (under p) * (powerRZ 2 own * IZR (iy x)))
+           + IZR (iz row) * (IZR (over p) / IZR (under p) * (powerRZ 2 own * IZR (iz x)))) + value t).
+    { intros row t T. rewrite <- (aligned_value t power T). unfold dot, shift. cbn [ix iy iz].
+      rewrite !mult_IZR, plus_IZR, !mult_IZR, !plus_IZR, !mult_IZR.
+      pose proof (shifted_power (ix x) (own + turn_power m) power Wm) as Sx.
+      pose proof (shifted_power (iy x) (own + turn_power m) power Wm) as Sy.
+      pose proof (shifted_power (iz x) (own + turn_power m) power Wm) as Sz.
+      rewrite two_power_sum in Sx, Sy, Sz.
+      set (sx := IZR (Z.shiftl (ix x) (own + turn_power m - power))) in *.
+      set (sy := IZR (Z.shiftl (iy x) (own + turn_power m - power))) in *.
+      set (sz := IZR (Z.shiftl (iz x) (own + turn_power m - power))) in *.
+      transitivity (IZR (over p) / IZR (under p) * (IZR (ix row) * (powerRZ 2 power * sx)
+          + IZR (iy row) * (powerRZ 2 power * sy) + IZR (iz row) * (powerRZ 2 power * sz))
+        + IZR (Z.shiftl (mantissa t) (exponent t - power)) * powerRZ 2 power).
+      - field. lra.
+      - rewrite Sx, Sy, Sz. field. lra. }
+    unfold real. cbn [ix iy iz px py pz]. f_equal; now apply Put.
+  - rewrite Z.leb_le in W.
+    assert (Put : forall c, powerRZ 2 power / (IZR (under p) * IZR other)
+        * IZR (over p * other * Z.shiftl c (own - power))
+      = IZR (over p) / IZR (under p) * (powerRZ 2 own * IZR c)).
+    { intros c. rewrite !mult_IZR, <- (shifted_power c own power W). field. lra. }
+    unfold real, times, shift. cbn [ix iy iz px py pz]. f_equal; apply Put.
+Qed.
+
+Lemma place_all_real m power other g : is_whole (lies m) (own_power m) power = true ->
+  (0 < other)%Z -> step g = powerRZ 2 power / (IZR (under (lies m)) * IZR other) ->
+  mesh g (place_all m power other) = mesh_of m.
+Proof.
+  intros W O G. unfold mesh, mesh_of, real_mesh. rewrite place_all_map, map_map, G.
+  apply map_ext. intros t. unfold real_triangle. cbn [i0 i1 i2].
+  now rewrite !place_real by assumption.
+Qed.
+
+(** What the check accepts is true of both meshes where they are put, and of all within the deltas. *)
+Theorem check_given_sound power it a b : check_given power it a b = true ->
+  forall a' b', within (value (delta_a it)) (mesh_of a) a' ->
+                within (value (delta_b it)) (mesh_of b) b' ->
+  holds (there it) a' b' /\ match back it with None => True | Some it' => holds it' b' a' end.
+Proof.
+  unfold check_given. rewrite !andb_true_iff. intros [[Wa Wb] H].
+  assert (Ua : (0 < under (lies a))%Z) by (unfold is_whole in Wa; rewrite andb_true_iff in Wa; lia).
+  assert (Ub : (0 < under (lies b))%Z) by (unfold is_whole in Wb; rewrite andb_true_iff in Wb; lia).
+  set (g := Grid power (under (lies a) * under (lies b))) in *.
+  rewrite <- (place_all_real a power (under (lies b)) g), <- (place_all_real b power (under (lies a)) g);
+    try assumption; try (now apply check_sound);
+    unfold step, g; cbn [Checker.power scale]; rewrite mult_IZR; f_equal; ring.
+Qed.
+
 (** * The same of h(A,B), as a supremum of infima *)
 
 Lemma infimum b p : (exists q, surface b q) -> exists d, distance_to b p d.
@@ -248,5 +360,5 @@ Proof.
     specialize (D q Q). lra.
 Qed.
 
-Print Assumptions check_sound.
+Print Assumptions check_given_sound.
 Print Assumptions interval.

@@ -22,8 +22,8 @@ let check certificate a b =
   let file = Certificate_file.read (contents certificate) in
   let a = corners file 0 a in
   let b = corners file 1 b in
-  let grid, a, b = Corners_file.read a b file.placement in
-  if not (Proven.check grid file.certificate a b) then
+  let power, a, b = Corners_file.read a b file.placement in
+  if not (Proven.check_given power file.certificate a b) then
     raise (Refused "the certificate does not prove its claim");
   let say name (lower, upper) = Printf.printf "proven: %h <= %s <= %h\n" lower name upper in
   List.iter2 say (if List.length file.bounds = 1 then [ "h(A,B)" ] else [ "h(A,B)"; "h(B,A)" ]) file.bounds;

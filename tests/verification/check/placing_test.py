@@ -1,7 +1,7 @@
 """A's that are placed, by units and a matrix: intervals enclose what rationals say, and both checkers accept certificates.
 
 usage: placing_test.py PROGRAM [--cases N] [--seed S] [unittest's own]
-VKH_CHECK is the checking program. B is a point, from which h(M A, B) is the distance of A's farthest corner: a convex
+VKH_CHECK is the checking program, and so is VKH_CHECK_PROVEN, if it is set. B is a point, from which h(M A, B) is the distance of A's farthest corner: a convex
 function is largest at a corner. So the truth is the root of a rational, and is found here from the decimals that are typed.
 """
 
@@ -20,6 +20,7 @@ from fractions import Fraction
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "check"))
 import vkh_check  # noqa: E402
 
+PROVEN = os.environ.get("VKH_CHECK_PROVEN", "")
 OPTIONS = argparse.Namespace(program="", cases=400, seed=1)
 UNITS = {"um": Fraction(1, 1000), "mm": Fraction(1), "cm": Fraction(10), "m": Fraction(1000), "in": Fraction(127, 5),
          "ft": Fraction(1524, 5)}
@@ -114,7 +115,7 @@ class Placed(unittest.TestCase):
         for case in self.cases[:12]:
             done = run(OPTIONS.program, "distance", *case.words(), "--symmetric", "--certificate", path)
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertEqual(self.checked(path, case), (0, 0))
+            self.assertEqual(set(self.checked(path, case)), {0}, case.id)
             with open(path, "rb") as file:
                 proof = file.read()
             for at, change in self.spoilt(case):
@@ -136,7 +137,12 @@ class Placed(unittest.TestCase):
 
     def checked(self, path, case):
         done = run(os.environ["VKH_CHECK"], path, *case.files[:2])
-        return done.returncode, vkh_check.checked(path, *case.files[:2])[0]
+        codes = [done.returncode, vkh_check.checked(path, *case.files[:2])[0]]
+        if PROVEN:
+            corners = [path + ".a", path + ".b"]
+            written = run(os.environ["VKH_CHECK"], path, *case.files[:2], "--corners", *corners)
+            codes.append(written.returncode or run(PROVEN, path, *corners).returncode)
+        return codes
 
 
 if __name__ == "__main__":
