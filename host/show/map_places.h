@@ -23,9 +23,9 @@ struct MapPlace {
 /// The farthest places, at most so many, the farthest first. Two places are apart where the
 /// distance falls to under half of the nearer one's on every way between them, as a grid of 1/64 of
 /// the mesh's extent sees it, or a coarser one for points that are farther apart; what is under a
-/// tenth of the largest distance, or of the map's bar where that is nearer, is no place. A place that
-/// has the witness is there. No distance is larger than the witness's upper end. What a map leaves
-/// out has no place.
+/// tenth of the largest distance, or of the map's bar where that is nearer, is no place. A place
+/// that has the witness is there. No distance is larger than the witness's upper end. What a map
+/// leaves out has no place.
 std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t most,
                                  const std::optional<Witness>& witness = {});
 

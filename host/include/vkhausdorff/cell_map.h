@@ -89,7 +89,8 @@ struct MapShares {
   double left_out = 0;  ///< by CellMap::max_distance: in none of the others
   /// Of what is not left out: probably within the limits; without a side, within both.
   double within = 0;
-  double mean = 0;  ///< of the distance of what is not left out, without a sign, in the files' units
+  double mean =
+      0;  ///< of the distance of what is not left out, without a sign, in the files' units
 };
 
 }  // namespace vkh
