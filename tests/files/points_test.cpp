@@ -114,6 +114,32 @@ TEST_CASE("withheld LAS points keep their numbers for those behind them") {
   CHECK(line_of(all.notes[0]) == "bodies: included, though withheld: 1 point");
 }
 
+TEST_CASE("blocks of a LAS file leave no gap where points are withheld") {
+  std::mt19937 random(9);
+  for (int round = 0; round < 40; ++round) {
+    Las las;
+    las.put(131, std::array{1.0, 1.0, 1.0});
+    std::vector<std::array<int32_t, 3>> numbers;
+    for (int32_t i = 0; i < 60; ++i) numbers.push_back({i, -i, 7});
+    las.put_points(numbers);
+    std::vector<int32_t> kept;
+    for (int32_t i = 0; i < 60; ++i) {
+      const bool is_withheld = random() % 4 == 0 || (round % 2 == 0 && i / 10 == 2);
+      if (is_withheld) las.put(227 + 20 * static_cast<size_t>(i) + 15, uint8_t{0x80});
+      if (!is_withheld) kept.push_back(i);
+    }
+    for (const size_t block : {size_t{1}, size_t{20}, size_t{130}, size_t{1000}, size_t{100000}}) {
+      const Mesh mesh =
+          vkh::parse_las({.name = "a.las", .bytes = las.bytes(), .limits = {.block_bytes = block}});
+      REQUIRE(mesh.vertices.size() == kept.size());
+      for (size_t i = 0; i < kept.size(); ++i) {
+        CHECK(mesh.vertices[i] == vkh::DVec3(kept[i], -kept[i], 7));
+        CHECK(mesh.file_faces.of(i) == static_cast<size_t>(kept[i]));
+      }
+    }
+  }
+}
+
 TEST_CASE("points are a mesh whose faces are its vertices, and check_mesh keeps it so") {
   Mesh mesh = vkh::make_points("p", {{0, 0, 0}, {1, 2, 3}, {0, 0, 0}});
   CHECK(mesh.counts.faces == 3);
