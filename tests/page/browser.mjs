@@ -96,7 +96,7 @@ async function lookAtView(page) {
     await page.click('[data-direction="1"]');
     await page.waitForSelector('body[data-shown="1"]');
     await settle(page);
-    seen.back = { ...(await state(page)), mesh: await text(page, '.tally-mesh') };
+    seen.back = { ...(await state(page)), mesh: await text(page, '.tally-of') };
     await page.click('[data-direction="0"]');
     await settle(page);
   }

@@ -194,7 +194,7 @@ class Browser(unittest.TestCase):
                 self.check_view(seen)
                 self.check_rows(seen, name)
                 if name == "fail":
-                    self.assertEqual(seen["back"]["mesh"], "B")
+                    self.assertEqual(seen["back"]["mesh"], "area of B")
                     self.assertNotEqual(seen["back"]["canvas"], seen["log"])
                     self.assertNotEqual(seen["start"]["beyond"], "0 %")
 
