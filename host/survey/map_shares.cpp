@@ -86,6 +86,9 @@ MapShares shares_of(const CellMap& map, const MapBar& bar) {
     shares.mean /= 1 - shares.left_out;
     shares.within /= 1 - shares.left_out;
   }
+  for (double* part : {&shares.above, &shares.below, &shares.unresolved, &shares.no_side,
+                       &shares.left_out, &shares.within})
+    *part = std::min(*part, 1.0);  // a cell's share is a float
   return shares;
 }
 
