@@ -207,14 +207,15 @@ TEST_CASE("integers of 128 bits are GMP's, modulo 2^128") {
   for (int round = 0; round < kRounds / 4; ++round) {
     const UInt128 x = {hard_word(random), hard_word(random)},
                   y = {hard_word(random), hard_word(random)};
-    const auto bits = static_cast<int>(random() % 128);
-    const mpz_class shifted = (integer(x) << bits) % modulus,
+    const mp_bitcnt_t places = random() % 128;
+    const auto bits = static_cast<int>(places);
+    const mpz_class shifted = (integer(x) << places) % modulus,
                     sum = (integer(x) + integer(y)) % modulus;
     const mpz_class difference = (integer(x) - integer(y) + modulus) % modulus;
     const mpz_class product = integer(x.low) * integer(y.low);
-    const bool agree = integer(x << bits) == shifted && integer(x >> bits) == integer(x) >> bits &&
-                       integer(x + y) == sum && integer(x - y) == difference &&
-                       (x < y) == (integer(x) < integer(y)) &&
+    const bool agree = integer(x << bits) == shifted &&
+                       integer(x >> bits) == integer(x) >> places && integer(x + y) == sum &&
+                       integer(x - y) == difference && (x < y) == (integer(x) < integer(y)) &&
                        integer(vkh::multiply(x.low, y.low)) == product &&
                        integer(vkh::multiply_by_halves(x.low, y.low)) == product;
     if (!agree) FAIL("round " << round);
