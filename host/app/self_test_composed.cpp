@@ -7,6 +7,7 @@
 
 #include "host/app/self_test.h"
 #include "host/base/float128.h"
+#include "host/base/hypot3.h"
 
 namespace vkh {
 namespace {
@@ -29,7 +30,7 @@ Float128Vector pair(const gpu::vec3& hi, const gpu::vec3& lo) {
 
 /// The length, off by at most 2^-50 of itself.
 double rough_length(const Float128Vector& v) {
-  return std::hypot(number(v.x), number(v.y), number(v.z));
+  return hypot3(number(v.x), number(v.y), number(v.z));
 }
 
 /// w times the power of two that brings its largest component into [1, 2).

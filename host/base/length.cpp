@@ -46,8 +46,7 @@ constexpr const char* kUnitNames = "um, mm, cm, m, in or ft";
 
 /// Encloses x, the result of a product and a quotient or two in Float128 (113 bits) from a number
 /// of 53 bits. The number was rounded to nearest, twice if it was a percentage. A diagonal is off
-/// by four ulps at most: its extents are rounded, and libstdc++'s hypot of three adds two roundings
-/// to a root.
+/// by four ulps at most: its extents are rounded, and so is hypot3 (host/base/hypot3.h).
 Limit around(Float128 x) {
   constexpr int kUlps = 16;
   const auto nearest = static_cast<double>(x);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "host/base/hypot3.h"
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/round_to_float.h"
@@ -183,7 +184,7 @@ Box join(const Box& x, const Box& y) {
 
 double diagonal(const Box& box) {
   const glm::dvec3 extent = box.hi - box.lo;
-  const double length = std::hypot(extent.x, extent.y, extent.z);  // nan for infinite extents
+  const double length = hypot3(extent.x, extent.y, extent.z);  // nan for infinite extents
   return std::isfinite(length) ? length : std::numeric_limits<double>::max();
 }
 

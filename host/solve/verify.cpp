@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/base/float128.h"
+#include "host/base/hypot3.h"
 
 namespace vkh {
 namespace {
@@ -15,8 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // The error of Float128 numbers: 2^-113 for each of a few operations on coordinates; taken 256
 // times over.
 const Float128 kFloat128Ulp = float128(0x1p-105);
-// The error of a length computed in Float128 and rounded to double: hypot is within 2 ulp, the rest
-// is nothing.
+// The error of a length computed in Float128 and rounded to double: hypot3 is within 5 * 2^-53, the
+// rest is nothing.
 constexpr double kOutward = 0x1p-48;
 
 struct Triangle {
@@ -47,7 +48,7 @@ Float128Vector offset_of(const Float128Vector& p, const Triangle& t) {
 }
 
 double length(const Float128Vector& r) {
-  return std::hypot(static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z));
+  return hypot3(static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.z));
 }
 
 // A positive distance, made smaller or larger by more than its rounding.

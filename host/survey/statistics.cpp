@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "host/base/hypot3.h"
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 
@@ -38,7 +39,7 @@ struct FaceArea {
 };
 
 // No square of a component may underflow.
-double length_of(const glm::dvec3& v) { return std::hypot(v.x, v.y, v.z); }
+double length_of(const glm::dvec3& v) { return hypot3(v.x, v.y, v.z); }
 
 // Half of |e x f|. Differences are off by kUnit of themselves, a component of the product by 4
 // kUnit of its parts, so the vector by less than 16 |e| |f| kUnit, and its length by 4 of itself.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/base/decimal.h"
+#include "host/base/hypot3.h"
 #include "host/mesh/round_to_float.h"
 #include "host/write/bytes.h"
 #include "vkhausdorff/error.h"
@@ -50,7 +51,7 @@ std::string mesh_as_ply(const Mesh& mesh) {
 DVec3 normal_of(const DVec3& a, const DVec3& b, const DVec3& c) {
   const DVec3 p = b - a, q = c - a;
   const DVec3 n(p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x);
-  const double length = std::hypot(n.x, n.y, n.z);
+  const double length = hypot3(n.x, n.y, n.z);
   return length > 0 && std::isfinite(length) ? n * (1 / length) : DVec3(0);
 }
 

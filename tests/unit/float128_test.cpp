@@ -11,6 +11,8 @@
 #include <limits>
 #include <random>
 
+#include "host/base/hypot3.h"
+
 namespace {
 
 using vkh::Float128;
@@ -224,4 +226,30 @@ TEST_CASE("integers of 128 bits are GMP's, modulo 2^128") {
   CHECK(countl_zero(UInt128{1, 0}) == 63);
   CHECK(countr_zero(UInt128{1, 0}) == 64);
   CHECK(countr_zero(UInt128{0, 2}) == 1);
+}
+
+TEST_CASE("hypot3 is within 5 * 2^-53 of a length, and has the bits of libstdc++") {
+  std::mt19937_64 random(48);
+  Big exact, square, off;
+  for (int round = 0; round < kRounds / 4; ++round) {
+    const std::array<double, 3> v = {hard_double(random, 40), hard_double(random, 40),
+                                     round % 3 == 0 ? 0 : hard_double(random, 40)};
+    mpfr_set_zero(exact.number_, 1);
+    for (const double x : v) {
+      mpfr_set_d(square.number_, x, MPFR_RNDN);
+      mpfr_sqr(square.number_, square.number_, MPFR_RNDN);
+      mpfr_add(exact.number_, exact.number_, square.number_, MPFR_RNDN);
+    }
+    mpfr_sqrt(exact.number_, exact.number_, MPFR_RNDN);
+    const double length = vkh::hypot3(v[0], v[1], v[2]);
+    mpfr_d_sub(off.number_, length, exact.number_, MPFR_RNDN);
+    const double allowed = 5 * 0x1p-53 * mpfr_get_d(exact.number_, MPFR_RNDN);
+    if (std::abs(mpfr_get_d(off.number_, MPFR_RNDN)) > allowed) FAIL("round " << round);
+#ifdef __GLIBCXX__
+    if (length != std::hypot(v[0], v[1], v[2])) FAIL("round " << round);
+#endif
+  }
+  CHECK(vkh::hypot3(0, 0, 0) == 0);
+  CHECK(vkh::hypot3(3e-320, 0, 4e-320) > 4.9e-320);
+  CHECK(vkh::hypot3(3e300, 4e300, 0) == 5e300);
 }
