@@ -157,6 +157,24 @@ class Arm64(Platform):
         yield
 
 
+class Libcxx(Platform):
+    """Clang with LLVM's C++ library: no extension of GNU's, and nothing of libstdc++ (docs/platforms.md)."""
+
+    tests = "tests"
+
+    def __init__(self, source: pathlib.Path, native: pathlib.Path):
+        super().__init__("libcxx", source, native)
+        compiler = need("clang++-19")
+        library = pathlib.Path(compiler).resolve().parents[1] / "include/c++/v1/__config"
+        if not library.exists():
+            raise Skip("no libc++-19-dev here (tools/setup --full)")
+        self.versions = [first_line(compiler, "--version")]
+
+    @contextlib.contextmanager
+    def ready(self):
+        yield
+
+
 class Driver(Platform):
     """This build on another driver of this machine. Tests run with the newer validation layer, where it is there."""
 

@@ -1,6 +1,6 @@
 """The program, the sweep and the kernels' tests on another platform or driver, against the program here, bit for bit.
 
-usage: platform_test.py windows|arm64|swiftshader|lavapipe128|lavapipe256|lavapipe512 --native BUILD [--only GROUP[,GROUP...]] [--sweep N]
+usage: platform_test.py windows|arm64|libcxx|swiftshader|lavapipe128|lavapipe256|lavapipe512 --native BUILD [--only GROUP[,GROUP...]] [--sweep N]
 
 Each group is a line: what was compared and how long it took. Exit code 77, with the reason: the compiler, the emulator
 or the platform's driver is not here.
@@ -22,7 +22,7 @@ import sys
 import time
 
 import meshes
-from emulated import Arm64, Lavapipe, Platform, Skip, SwiftShader, Windows
+from emulated import Arm64, Lavapipe, Libcxx, Platform, Skip, SwiftShader, Windows
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 TESTS = SOURCE / "tests"
@@ -236,13 +236,14 @@ class Run:
 GROUPS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "table": Run.table,
           "api": Run.api, "host": Run.host, "interrupt": Run.interrupt, "kernels": Run.kernels, "sweep": Run.sweeping}
 GROUPS_OF = {"windows": GROUPS | {"console": Run.console},
+             "libcxx": {name: GROUPS[name] for name in ("doctor", "demo", "manifest", "generated", "table", "api", "host", "sweep")},
              # Emulated, the kernels' tests and the generated pairs would take minutes: --only has them run.
              "arm64": {name: GROUPS[name] for name in ("doctor", "demo", "manifest", "sweep")}}
 OF_DRIVERS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "api": Run.api,
               "kernels": Run.kernels, "presets": Run.presets, "sweep": Run.sweeping}
 DRIVERS = {"swiftshader": SwiftShader,
            **{f"lavapipe{bits}": functools.partial(Lavapipe, bits) for bits in (128, 256, 512)}}
-PLATFORMS = {"windows": Windows, "arm64": Arm64, **DRIVERS}
+PLATFORMS = {"windows": Windows, "arm64": Arm64, "libcxx": Libcxx, **DRIVERS}
 NEEDS = {"kernels": ["engine_tests"], "host": ["unit_tests", "files_tests"], "api": ["api_c11"], "sweep": ["vkh_sweep"]}  # and the program
 
 

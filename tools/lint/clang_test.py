@@ -1,7 +1,8 @@
 """Clang reads the product without a warning, room by room as it is compiled (cmake/Unity.cmake).
 
-usage: clang_test.py BUILD SOURCE [--all]. --all: each source by itself, those of tests and tools,
-too. Exit code 77: no clang here.
+usage: clang_test.py BUILD SOURCE [--all | --libcxx]. --all: each source by itself, those of tests and tools,
+too. --libcxx: the whole tree with LLVM's C++ library, and extensions of GNU's are errors. Exit code 77: no clang
+here.
 """
 
 import concurrent.futures
@@ -15,6 +16,8 @@ import sys
 
 import alone
 
+LIBCXX = ("-stdlib=libc++", "-fexperimental-library")  # std::stop_token
+STRICT = ("-Wgnu", "-pedantic-errors")
 PRODUCT = ("CMakeFiles", "host", "check", "examples")  # the engine and the checker are targets of the top folder
 # Options that clang does not have.
 OURS = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-subobject-linkage", "--param=inline-unit-growth=400")
@@ -34,8 +37,20 @@ def command_of(entry: dict, compilers: dict) -> list[str]:
             skip = True
         else:
             kept.append(word)
-    compiler = compilers["c" if file.endswith(".c") else "c++"]
-    return [compiler, *kept, "-fsyntax-only", "-Werror", file]
+    language = "c" if file.endswith(".c") else "c++"
+    return [*compilers[language], *kept, "-fsyntax-only", "-Werror", file]
+
+
+def compilers_of(is_libcxx: bool) -> dict | None:
+    """The words that start each compiler; None where one is missing."""
+    version = "-19" if is_libcxx else ""
+    found = {"c": shutil.which(f"clang{version}"), "c++": shutil.which(f"clang++{version}")}
+    if not all(found.values()):
+        return None
+    if not is_libcxx:
+        return {language: [path] for language, path in found.items()}
+    library = pathlib.Path(found["c++"]).resolve().parents[1] / "include/c++/v1/__config"
+    return {"c": [found["c"], *STRICT], "c++": [found["c++"], *LIBCXX, *STRICT]} if library.exists() else None
 
 
 def folder_of(entry: dict) -> str:
@@ -51,12 +66,14 @@ def check(entry: dict, compilers: dict) -> str:
 
 def main() -> int:
     build, source = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-    compilers = {"c": shutil.which("clang"), "c++": shutil.which("clang++")}
-    if not all(compilers.values()):
-        print("clang_test: skipped, no clang")
+    is_libcxx = "--libcxx" in sys.argv[3:]
+    compilers = compilers_of(is_libcxx)
+    if not compilers:
+        print(f"clang_test: skipped, no clang{' 19 with libc++' if is_libcxx else ''}")
         return 77
-    every = "--all" in sys.argv[3:]
-    build = alone.configure(build, source, units=not every)
+    is_alone = "--all" in sys.argv[3:]
+    every = is_alone or is_libcxx
+    build = alone.configure(build, source, units=not is_alone)
     entries = json.loads((build / "compile_commands.json").read_text())
     # Embedded kernels are arrays of numbers, and those of the build folder.
     entries = [e for e in entries if "generated" not in e["file"] and (every or folder_of(e) in PRODUCT)]
