@@ -40,7 +40,7 @@ class Checkers:
 
     def read(self, path, given):
         """vkh_check.read_mesh with a cache."""
-        key = path, repr(given)
+        key = path, type(given), repr(given)  # no polygons of a mesh are {} as those of points are
         if key not in self.meshes_read:
             try:
                 self.meshes_read[key] = vkh_check.read_mesh(path, given)
