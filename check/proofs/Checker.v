@@ -68,7 +68,7 @@ Inductive part :=
 | Leaf (s : positive)
 | Cut (o : corner) (s r : positive) (p q : Z).
 
-(** The parts of all faces, and a witness: its face from 0, its weights j / 2^bits and k / 2^bits. *)
+(** The parts of all faces, and a witness: its face from 0, its weights j and k, over 2^bits. *)
 Record direction := Direction {
   lower : dyadic; upper : dyadic;
   witness : Z; weight_bits : Z; weight_j : Z; weight_k : Z;
@@ -142,7 +142,8 @@ Definition on_edge (bits p : Z) (o a : ipoint) : ipoint :=
 
 Definition is_fraction (bits p : Z) : bool := (0 <=? p) && (p <? Z.shiftl 1 bits).
 
-(** Whether all points of a part are within the root of n / d. Its corners are 2^k times as large. *)
+(** Whether all points of a part are within the root of n / d. Its corners are 2^k times as
+    large. *)
 Fixpoint check_part (b : tree) (bits n d k : Z) (v : itriangle) (it : part) : bool :=
   match it with
   | Halved opposite first second =>
@@ -306,4 +307,5 @@ Definition check_given (power : Z) (it : certificate) (a b : given) : bool :=
   is_whole (lies a) (own_power a) power && is_whole (lies b) (own_power b) power
   && (let under_a := under (lies a) in
       let under_b := under (lies b) in
-      check (Grid power (under_a * under_b)) it (place_all a power under_b) (place_all b power under_a)).
+      check (Grid power (under_a * under_b)) it
+            (place_all a power under_b) (place_all b power under_a)).

@@ -8,7 +8,8 @@ Extract Inductive positive => "int" [ "(fun p -> 2 * p + 1)" "(fun p -> 2 * p)" 
     if p land 1 = 1 then one (p lsr 1) else zero (p lsr 1))".
 Extract Inlined Constant Pos.succ => "succ".
 
-Extract Inductive Z => "Integers.t" [ "Integers.zero" "Integers.of_int" "(fun p -> Integers.of_int (- p))" ]
+Extract Inductive Z => "Integers.t" [ "Integers.zero" "Integers.of_int"
+  "(fun p -> Integers.of_int (- p))" ]
   "(fun zero positive negative z -> let s = Integers.sign z in
     if s = 0 then zero () else if s > 0 then positive (Integers.to_int z)
     else negative (Integers.to_int (Integers.neg z)))".

@@ -98,7 +98,8 @@ Proof.
   apply distance_at_most; [ exact D | ].
   apply Q in H0, H1, H2.
   set (u := delta * delta) in *.
-  assert (M : a * square_distance (corner0 s) (corner0 t) + b * square_distance (corner1 s) (corner1 t)
+  assert (M : a * square_distance (corner0 s) (corner0 t)
+              + b * square_distance (corner1 s) (corner1 t)
               + c * square_distance (corner2 s) (corner2 t) <= u).
   { apply (Rmult_le_compat_l a) in H0; [ | assumption ].
     apply (Rmult_le_compat_l b) in H1; [ | assumption ].

@@ -5,7 +5,8 @@ Open Scope R_scope.
 
 (** * Integer points as real ones *)
 
-Definition real (g : R) (p : ipoint) : point := Point (g * IZR (ix p)) (g * IZR (iy p)) (g * IZR (iz p)).
+Definition real (g : R) (p : ipoint) : point :=
+  Point (g * IZR (ix p)) (g * IZR (iy p)) (g * IZR (iz p)).
 
 Definition real_triangle (g : R) (t : itriangle) : triangle :=
   Triangle (real g (i0 t)) (real g (i1 t)) (real g (i2 t)).
@@ -117,7 +118,8 @@ Proof.
     apply Z.ltb_lt, IZR_lt in A. apply Z.leb_le, IZR_le in X, Y, XY, H.
     assert (Area : IZR (area p) = IZR (d00 p) * IZR (d11 p) - IZR (d01 p) * IZR (d01 p)).
     { rewrite <- !mult_IZR, <- minus_IZR. reflexivity. }
-    reals. rewrite Area in *. set (aa := IZR (d00 p) * IZR (d11 p) - IZR (d01 p) * IZR (d01 p)) in *.
+    reals. rewrite Area in *.
+    set (aa := IZR (d00 p) * IZR (d11 p) - IZR (d01 p) * IZR (d01 p)) in *.
     assert (I : 0 < / aa) by now apply Rinv_0_lt_compat.
     apply (Scale ((IZR (d11 p) * IZR f0 - IZR (d01 p) * IZR f1) * / aa)
                  ((IZR (d00 p) * IZR f1 - IZR (d01 p) * IZR f0) * / aa)).
@@ -167,7 +169,8 @@ Definition is_near (t : triangle) : Prop :=
   forall p, covers t p -> exists q, surface (real_mesh g y) q /\ distance p q <= u.
 
 Lemma near_leaf h k s a b' c : (0 <= k)%Z -> g = h * IZR (2 ^ k) ->
-  all_near b n d k s (a :: b' :: c :: nil) = true -> is_near (Triangle (real h a) (real h b') (real h c)).
+  all_near b n d k s (a :: b' :: c :: nil) = true ->
+  is_near (Triangle (real h a) (real h b') (real h c)).
 Proof.
   intros K G H p C. destruct (all_near_sound h k s _ K G H) as (t & T & N).
   destruct (leaf_near (Triangle (real h a) (real h b') (real h c)) t u p) as (q & Q & E);
@@ -260,9 +263,9 @@ Proof.
   assert (K' : (0 <= k + bits)%Z) by lia.
   destruct (all_near_sound h' _ _ _ K' G' R') as (t & T & N).
   apply (near_leaf h' _ _ _ _ _ K' G') in S.
-  assert (N3 : forall a b' c', In a (on_edge bits p c x :: on_edge bits q c z :: shift bits x :: shift bits z :: nil) ->
-    In b' (on_edge bits p c x :: on_edge bits q c z :: shift bits x :: shift bits z :: nil) ->
-    In c' (on_edge bits p c x :: on_edge bits q c z :: shift bits x :: shift bits z :: nil) ->
+  set (piece := on_edge bits p c x :: on_edge bits q c z
+                :: shift bits x :: shift bits z :: nil) in *.
+  assert (N3 : forall a b' c', In a piece -> In b' piece -> In c' piece ->
     is_near (Triangle (real h' a) (real h' b') (real h' c'))).
   { intros a b' c' A B C w Cw.
     destruct (leaf_near (Triangle (real h' a) (real h' b') (real h' c')) t u w) as (w' & Q' & E');
@@ -271,7 +274,8 @@ Proof.
   assert (Real : forall w, real h' (shift bits w) = real h w) by (intros; now apply shift_real).
   unfold real_triangle; cbn [i0 i1 i2].
   apply (near_split _ _ _ (IZR p / IZR (2 ^ bits))); [ now apply fraction_sound | | ].
-  - apply near_swapped. apply (near_split _ _ _ (IZR q / IZR (2 ^ bits))); [ now apply fraction_sound | | ].
+  - apply near_swapped. apply (near_split _ _ _ (IZR q / IZR (2 ^ bits)));
+    [ now apply fraction_sound | | ].
     + apply near_swapped. rewrite <- !on_edge_real, <- (Real c). exact S.
     + rewrite <- !on_edge_real, <- (Real z). apply N3; cbn; tauto.
   - rewrite <- !on_edge_real, <- (Real x), <- (Real z). apply N3; cbn; tauto.
@@ -340,7 +344,8 @@ Proof.
   apply (separated (real_triangle h t) (real h p) (real 1 r) l L).
   - rewrite Rr. exact R0.
   - rewrite Rr. unfold real_triangle. fields.
-    intros c [E | [E | E]]; subst c; rewrite along_real; apply K; rewrite ?andb_true_iff; assumption.
+    intros c [E | [E | E]]; subst c; rewrite along_real; apply K; rewrite ?andb_true_iff;
+      assumption.
 Qed.
 
 Lemma beyond_side reach p a b c : beyond reach p a b c = true ->
@@ -404,7 +409,8 @@ Lemma witness_real g it face : (0 <= weight_bits it)%Z ->
 Proof.
   intros B w. pose proof (power_positive' _ B). fold w in H.
   unfold witness_of, plus, times, weighted, real_triangle. fields. unfold real. fields.
-  rewrite Z.shiftl_mul_pow2, Z.mul_1_l by assumption. reals. fold w. clearbody w. f_equal; field; lra.
+  rewrite Z.shiftl_mul_pow2, Z.mul_1_l by assumption. reals. fold w. clearbody w.
+  f_equal; field; lra.
 Qed.
 
 Lemma check_lower_sound it g l n d x y : 0 < g -> (0 < d)%Z -> 0 <= l ->

@@ -1,6 +1,6 @@
 (* Reads the bytes of a certificate, docs/certificate-file.md, into the certificate of the theorem.
-   Nothing of this is proven, and soundness needs nothing of it but what it prints: lower, upper, the
-   deltas, and where the meshes lie. *)
+   Nothing of this is proven, and soundness needs nothing of it but what it prints: lower, upper,
+   the deltas, and where the meshes lie. *)
 
 exception Broken of string
 
@@ -52,7 +52,8 @@ let parts_of x =
   and field = Int64.to_int (Int64.shift_right_logical bits 52) land 2047 in
   let mantissa, exponent =
     if field = 0 then (fraction, -1074) else (fraction lor (1 lsl 52), field - 1075) in
-  let rec odd m e = if m = 0 then (0, 0) else if m land 1 = 0 then odd (m asr 1) (e + 1) else (m, e) in
+  let rec odd m e =
+    if m = 0 then (0, 0) else if m land 1 = 0 then odd (m asr 1) (e + 1) else (m, e) in
   let m, e = odd mantissa exponent in
   ((if Float.sign_bit x then -m else m), e)
 
@@ -85,7 +86,8 @@ let polygon r =
 
 let unit_part r =
   let x = real r in
-  expect r (x >= 1. && x <= 0x1p53 && Float.is_integer x) "a unit that is no quotient of whole numbers";
+  expect r (x >= 1. && x <= 0x1p53 && Float.is_integer x)
+    "a unit that is no quotient of whole numbers";
   x
 
 (* How a mesh was read. Where it lies is kept: the rest is for those who read the mesh's file. *)
@@ -99,7 +101,8 @@ let description r =
   let under = unit_part r in
   let matrices = long r in
   expect r (Z.leq matrices Z.one) "a matrix of no kind";
-  let matrix = if Z.equal matrices Z.one then Some (Array.init 12 (fun _ -> signed_real r)) else None in
+  let entries () = Array.init 12 (fun _ -> signed_real r) in
+  let matrix = if Z.equal matrices Z.one then Some (entries ()) else None in
   let polygons = long r in
   expect r (Z.leq polygons (Z.of_int (r.stop - r.at))) "more polygons than bytes";
   for _ = 1 to Z.to_int polygons do polygon r done;

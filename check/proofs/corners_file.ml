@@ -23,7 +23,8 @@ let shifts matrix i = parts_of matrix.(4 * i + 3)
 let turn_power matrix = or_zero (least 9 (turns matrix))
 let own_power data = or_zero (least (String.length data / 8) (fun i -> number data (8 * i)))
 
-(* The greatest power of two of which all placed coordinates times `under` are multiples, or less. *)
+(* The greatest power of two of which all placed coordinates times `under` are multiples, or a
+   smaller one. *)
 let power_of data placement =
   match placement.matrix with
   | None -> own_power data
@@ -42,8 +43,10 @@ let motion matrix power =
 let given data placement power =
   let own = own_power data in
   let coordinate at = scaled (number data at) own in
-  let point at = { Proven.ix = coordinate at; iy = coordinate (at + 8); iz = coordinate (at + 16) } in
-  let triangle f = { Proven.i0 = point (72 * f); i1 = point (72 * f + 24); i2 = point (72 * f + 48) } in
+  let point at =
+    { Proven.ix = coordinate at; iy = coordinate (at + 8); iz = coordinate (at + 16) } in
+  let triangle f =
+    { Proven.i0 = point (72 * f); i1 = point (72 * f + 24); i2 = point (72 * f + 48) } in
   { Proven.own_power = Z.of_int own;
     given_faces = List.init (String.length data / 72) triangle;
     lies = { Proven.over = Z.of_float placement.over; under = Z.of_float placement.under;

@@ -1,5 +1,5 @@
-(* Zarith's integers as Coq's: with Coq's values where a shift is negative, a divisor 0, or a root of a
-   negative number. *)
+(* Zarith's integers as Coq's: with Coq's values where a shift is negative, a divisor 0, or a root
+   of a negative number. *)
 
 include Z
 

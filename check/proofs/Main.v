@@ -41,7 +41,8 @@ Qed.
 Lemma claimed_value c side a b :
   value (claimed c side a b) = value c + IZR side * (value a + value b).
 Proof.
-  unfold claimed. set (least := Z.min (exponent c) (Z.min (exponent a) (exponent b))). unfold value at 1; cbn [mantissa exponent].
+  unfold claimed. set (least := Z.min (exponent c) (Z.min (exponent a) (exponent b))).
+  unfold value at 1; cbn [mantissa exponent].
   rewrite plus_IZR, mult_IZR, plus_IZR.
   rewrite <- (aligned_value c least), <- (aligned_value a least), <- (aligned_value b least)
     by (unfold least; lia). ring.
@@ -108,7 +109,8 @@ Qed.
 
 (** * Meshes that are within the deltas *)
 
-Lemma within_back delta m m' t' : within delta m m' -> In t' m' -> exists t, In t m /\ moved delta t t'.
+Lemma within_back delta m m' t' :
+  within delta m m' -> In t' m' -> exists t, In t m /\ moved delta t t'.
 Proof.
   intros W. induction W as [ | s s' r r' M W IH]; intros I; [ destruct I | ].
   destruct I as [I | I].
@@ -116,7 +118,8 @@ Proof.
   - destruct (IH I) as (t & T & M'). exists t. split; [ now right | exact M' ].
 Qed.
 
-Lemma within_forth delta m m' t : within delta m m' -> In t m -> exists t', In t' m' /\ moved delta t t'.
+Lemma within_forth delta m m' t :
+  within delta m m' -> In t m -> exists t', In t' m' /\ moved delta t t'.
 Proof.
   intros W. induction W as [ | s s' r r' M W IH]; intros I; [ destruct I | ].
   destruct I as [I | I].
@@ -238,8 +241,10 @@ Definition placed (p : placement) (x : point) : point :=
   match moved_by p with
   | None => Point (r * px x) (r * py x) (r * pz x)
   | Some m =>
-    let put row t := powerRZ 2 (turn_power m) * (IZR (ix row) * (r * px x) + IZR (iy row) * (r * py x)
-                                                 + IZR (iz row) * (r * pz x)) + value t in
+    let put row t :=
+      powerRZ 2 (turn_power m)
+      * (IZR (ix row) * (r * px x) + IZR (iy row) * (r * py x) + IZR (iz row) * (r * pz x))
+      + value t in
     Point (put (row_x m) (shift_x m)) (put (row_y m) (shift_y m)) (put (row_z m) (shift_z m))
   end.
 
@@ -286,7 +291,8 @@ Proof.
       = powerRZ 2 (turn_power m)
         * (IZR (ix row) * (IZR (over p) / IZR (under p) * (powerRZ 2 own * IZR (ix x)))
            + IZR (iy row) * (IZR (over p) / IZR (under p) * (powerRZ 2 own * IZR (iy x)))
-           + IZR (iz row) * (IZR (over p) / IZR (under p) * (powerRZ 2 own * IZR (iz x)))) + value t).
+           + IZR (iz row) * (IZR (over p) / IZR (under p) * (powerRZ 2 own * IZR (iz x))))
+        + value t).
     { intros row t T. rewrite <- (aligned_value t power T). unfold dot, shift. cbn [ix iy iz].
       rewrite !mult_IZR, plus_IZR, !mult_IZR, !plus_IZR, !mult_IZR.
       pose proof (shifted_power (ix x) (own + turn_power m) power Wm) as Sx.
@@ -319,7 +325,8 @@ Proof.
   now rewrite !place_real by assumption.
 Qed.
 
-(** What the check accepts is true of both meshes where they are put, and of all within the deltas. *)
+(** What the check accepts is true of both meshes where they are put, and of all that are within
+    the deltas of them. *)
 Theorem check_given_sound power it a b : check_given power it a b = true ->
   forall a' b', within (value (delta_a it)) (mesh_of a) a' ->
                 within (value (delta_b it)) (mesh_of b) b' ->
@@ -329,9 +336,28 @@ Proof.
   assert (Ua : (0 < under (lies a))%Z) by (unfold is_whole in Wa; rewrite andb_true_iff in Wa; lia).
   assert (Ub : (0 < under (lies b))%Z) by (unfold is_whole in Wb; rewrite andb_true_iff in Wb; lia).
   set (g := Grid power (under (lies a) * under (lies b))) in *.
-  rewrite <- (place_all_real a power (under (lies b)) g), <- (place_all_real b power (under (lies a)) g);
+  rewrite <- (place_all_real a power (under (lies b)) g),
+          <- (place_all_real b power (under (lies a)) g);
     try assumption; try (now apply check_sound);
     unfold step, g; cbn [Checker.power scale]; rewrite mult_IZR; f_equal; ring.
+Qed.
+
+Lemma within_itself delta m : 0 <= delta -> within delta m m.
+Proof.
+  intros D. assert (Z : forall p, distance p p <= delta).
+  { intros p. apply distance_at_most; [ exact D | ]. unfold square_distance.
+    replace (px p - px p) with 0 by ring. replace (py p - py p) with 0 by ring.
+    replace (pz p - pz p) with 0 by ring. nra. }
+  induction m; constructor; [ repeat split; apply Z | assumption ].
+Qed.
+
+(** The same of the meshes as they are given. *)
+Corollary check_given_itself power it a b : check_given power it a b = true ->
+  0 <= value (delta_a it) -> 0 <= value (delta_b it) ->
+  holds (there it) (mesh_of a) (mesh_of b) /\
+  match back it with None => True | Some it' => holds it' (mesh_of b) (mesh_of a) end.
+Proof.
+  intros H A B. apply (check_given_sound power it a b H); now apply within_itself.
 Qed.
 
 (** * The same of h(A,B), as a supremum of infima *)
@@ -339,7 +365,8 @@ Qed.
 Lemma infimum b p : (exists q, surface b q) -> exists d, distance_to b p d.
 Proof.
   intros (q0 & Q0).
-  destruct (completeness (fun r => exists q, surface b q /\ r = - distance p q)) as (m & Up & Least).
+  destruct (completeness (fun r => exists q, surface b q /\ r = - distance p q))
+    as (m & Up & Least).
   - exists 0. intros r (q & _ & E). pose proof (distance_positive p q). lra.
   - now exists (- distance p q0), q0.
   - exists (- m). split.
