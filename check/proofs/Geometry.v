@@ -139,10 +139,6 @@ Qed.
 
 Lemma covers_corner0 t : covers t (corner0 t).
 Proof. exists 1, 0, 0. repeat split; try lra. same_point; ring. Qed.
-Lemma covers_corner1 t : covers t (corner1 t).
-Proof. exists 0, 1, 0. repeat split; try lra. same_point; ring. Qed.
-Lemma covers_corner2 t : covers t (corner2 t).
-Proof. exists 0, 0, 1. repeat split; try lra. same_point; ring. Qed.
 
 Lemma covers_turned a b c p : covers (Triangle a b c) p -> covers (Triangle b c a) p.
 Proof.

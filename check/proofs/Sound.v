@@ -26,13 +26,7 @@ Ltac integer_points := repeat match goal with
 Lemma shiftl_real x k : (0 <= k)%Z -> IZR (Z.shiftl x k) = IZR x * IZR (2 ^ k).
 Proof. intros. rewrite Z.shiftl_mul_pow2 by assumption. apply mult_IZR. Qed.
 
-Lemma power_positive k : 0 < IZR (2 ^ k) \/ (k < 0)%Z.
-Proof.
-  destruct (Z_lt_dec k 0); [ now right | left ].
-  apply IZR_lt. apply Z.pow_pos_nonneg; lia.
-Qed.
-
-Lemma power_positive' k : (0 <= k)%Z -> 0 < IZR (2 ^ k).
+Lemma power_positive k : (0 <= k)%Z -> 0 < IZR (2 ^ k).
 Proof. intros. apply IZR_lt. apply Z.pow_pos_nonneg; lia. Qed.
 
 Lemma shift_real g h k p : (0 <= k)%Z -> g = h * IZR (2 ^ k) -> real h (shift k p) = real g p.
@@ -199,9 +193,6 @@ Proof.
   unfold real, plus, between; cbn [ix iy iz px py pz]. reals. f_equal; field.
 Qed.
 
-Lemma middle_swapped p q : between (1 / 2) p q = between (1 / 2) q p.
-Proof. unfold between. f_equal; field. Qed.
-
 (** Two halves cover the whole. *)
 Lemma halves_near h opposite v :
   is_near (real_triangle (h / 2) (fst (halves opposite v))) ->
@@ -232,7 +223,7 @@ Proof.
   unfold is_fraction. rewrite andb_true_iff, Z.leb_le, Z.ltb_lt.
   rewrite Z.shiftl_mul_pow2, Z.mul_1_l by assumption. intros [P Q].
   apply IZR_le in P. apply IZR_lt in Q.
-  pose proof (power_positive' bits Bits) as W.
+  pose proof (power_positive bits Bits) as W.
   assert (I : 0 < / IZR (2 ^ bits)) by now apply Rinv_0_lt_compat.
   split.
   - apply Rmult_le_pos; lra.
@@ -244,7 +235,7 @@ Lemma on_edge_real h p o a :
   real (h / IZR (2 ^ bits)) (on_edge bits p o a)
   = between (IZR p / IZR (2 ^ bits)) (real h o) (real h a).
 Proof.
-  pose proof (power_positive' bits Bits).
+  pose proof (power_positive bits Bits).
   unfold real, on_edge, plus, times, between; cbn [ix iy iz px py pz].
   rewrite Z.shiftl_mul_pow2, Z.mul_1_l by assumption. reals. f_equal; field; lra.
 Qed.
@@ -255,7 +246,7 @@ Lemma cut_near h k o s r p q v : (0 <= k)%Z -> g = h * IZR (2 ^ k) ->
 Proof.
   intros K G. cbn [check_part]. intros H. apply (turned_near h o).
   destruct (turned o v) as [c x z]. rewrite !andb_true_iff in H. destruct H as [[[P Q] S] R'].
-  pose proof (power_positive' bits Bits) as W.
+  pose proof (power_positive bits Bits) as W.
   set (h' := h / IZR (2 ^ bits)).
   assert (E : h = h' * IZR (2 ^ bits)) by (unfold h'; field; lra).
   assert (G' : g = h' * IZR (2 ^ (k + bits))).
@@ -407,7 +398,7 @@ Lemma witness_real g it face : (0 <= weight_bits it)%Z ->
   = weighted (1 - IZR (weight_j it) / w - IZR (weight_k it) / w) (IZR (weight_j it) / w)
              (IZR (weight_k it) / w) (real_triangle g face).
 Proof.
-  intros B w. pose proof (power_positive' _ B). fold w in H.
+  intros B w. pose proof (power_positive _ B). fold w in H.
   unfold witness_of, plus, times, weighted, real_triangle. fields. unfold real. fields.
   rewrite Z.shiftl_mul_pow2, Z.mul_1_l by assumption. reals. fold w. clearbody w.
   f_equal; field; lra.
@@ -421,7 +412,7 @@ Proof.
     [ | discriminate ].
   rewrite !andb_true_iff, !Z.leb_le. intros [[[[[[B J] K] S] P] Q] H].
   rewrite Z.shiftl_mul_pow2, Z.mul_1_l in S by assumption.
-  set (w := IZR (2 ^ weight_bits it)). assert (W : 0 < w) by now apply power_positive'.
+  set (w := IZR (2 ^ weight_bits it)). assert (W : 0 < w) by now apply power_positive.
   apply IZR_le in J, K, S. reals. fold w in S.
   assert (I : 0 < / w) by now apply Rinv_0_lt_compat.
   exists (real (g / w) (witness_of it face)). split.
