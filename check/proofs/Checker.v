@@ -250,9 +250,11 @@ Definition check_direction (g : grid) (bits : Z) (a b : dyadic) (it : direction)
       else (0 <=? mantissa least) && check_lower it nl dl x y)
   && check_faces index_of_y bits n d x (parts it).
 
-(** Whether a certificate proves its claim for two meshes, whose corners are in steps of a grid. *)
+(** Whether a certificate proves its claim for two meshes, whose corners are in steps of a grid.
+    Deltas are not negative: with a negative one the theorem would be about no mesh at all. *)
 Definition check (g : grid) (it : certificate) (a b : list itriangle) : bool :=
   (0 <? scale g) && (0 <=? cut_bits it)
+  && (0 <=? mantissa (delta_a it)) && (0 <=? mantissa (delta_b it))
   && check_direction g (cut_bits it) (delta_a it) (delta_b it) (there it) a b (index b)
   && match back it with
      | None => true

@@ -219,7 +219,8 @@ Theorem check_sound g it a b : check g it a b = true ->
                 within (value (delta_b it)) (mesh g b) b' ->
   holds (there it) a' b' /\ match back it with None => True | Some it' => holds it' b' a' end.
 Proof.
-  unfold check. rewrite !andb_true_iff, Z.ltb_lt, Z.leb_le. intros [[[S Bits] H] Hb] a' b' A B.
+  unfold check. rewrite !andb_true_iff, Z.ltb_lt, !Z.leb_le.
+  intros [[[[[S Bits] _] _] H] Hb] a' b' A B.
   split.
   - now apply (check_direction_sound g (cut_bits it) (delta_a it) (delta_b it) _ a b).
   - destruct (back it) as [it' | ]; [ | exact I ].
@@ -351,13 +352,21 @@ Proof.
   induction m; constructor; [ repeat split; apply Z | assumption ].
 Qed.
 
-(** The same of the meshes as they are given. *)
+Lemma check_given_deltas power it a b : check_given power it a b = true ->
+  0 <= value (delta_a it) /\ 0 <= value (delta_b it).
+Proof.
+  unfold check_given, check. rewrite !andb_true_iff, !Z.leb_le.
+  intros [_ [[[[_ A] B] _] _]]. split; now apply value_positive.
+Qed.
+
+(** The same of the meshes as they are given: they are always among those that the theorem is
+    about. *)
 Corollary check_given_itself power it a b : check_given power it a b = true ->
-  0 <= value (delta_a it) -> 0 <= value (delta_b it) ->
   holds (there it) (mesh_of a) (mesh_of b) /\
   match back it with None => True | Some it' => holds it' (mesh_of b) (mesh_of a) end.
 Proof.
-  intros H A B. apply (check_given_sound power it a b H); now apply within_itself.
+  intros H. destruct (check_given_deltas power it a b H).
+  apply (check_given_sound power it a b H); now apply within_itself.
 Qed.
 
 (** * The same of h(A,B), as a supremum of infima *)
