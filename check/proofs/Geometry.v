@@ -69,7 +69,7 @@ Qed.
 Ltac points := repeat match goal with
   | p : point |- _ => destruct p
   | t : triangle |- _ => destruct t
-  end; unfold weighted, square_distance in *; cbn [px py pz corner0 corner1 corner2] in *.
+  end; unfold combination, square_distance in *; cbn [px py pz corner0 corner1 corner2] in *.
 
 Ltac same_point := points; f_equal.
 
@@ -87,9 +87,9 @@ Proof.
 Qed.
 
 (** No point of a triangle moves farther than its corners do. *)
-Lemma weighted_near s t delta a b c :
-  moved delta s t -> 0 <= a -> 0 <= b -> 0 <= c -> a + b + c = 1 ->
-  distance (weighted a b c s) (weighted a b c t) <= delta.
+Lemma combination_near s t delta a b c :
+  corners_within delta s t -> 0 <= a -> 0 <= b -> 0 <= c -> a + b + c = 1 ->
+  distance (combination a b c s) (combination a b c t) <= delta.
 Proof.
   intros (H0 & H1 & H2) Ha Hb Hc S.
   assert (D : 0 <= delta) by (eapply Rle_trans; [ apply distance_positive | exact H0 ]).
@@ -108,7 +108,7 @@ Proof.
       by ring; rewrite S; ring). lra. }
   refine (Rle_trans _ _ _ _ M). clear M H0 H1 H2 Q.
   destruct s as [[x0 y0 z0] [x1 y1 z1] [x2 y2 z2]], t as [[u0 v0 w0] [u1 v1 w1] [u2 v2 w2]].
-  unfold square_distance, weighted; cbn [px py pz corner0 corner1 corner2].
+  unfold square_distance, combination; cbn [px py pz corner0 corner1 corner2].
   pose proof (jensen a b c (x0 - u0) (x1 - u1) (x2 - u2) Ha Hb Hc S).
   pose proof (jensen a b c (y0 - v0) (y1 - v1) (y2 - v2) Ha Hb Hc S).
   pose proof (jensen a b c (z0 - w0) (z1 - w1) (z2 - w2) Ha Hb Hc S).
@@ -124,7 +124,7 @@ Qed.
 (** A triangle is convex. *)
 Lemma covers_convex t s a b c :
   covers t (corner0 s) -> covers t (corner1 s) -> covers t (corner2 s) ->
-  0 <= a -> 0 <= b -> 0 <= c -> a + b + c = 1 -> covers t (weighted a b c s).
+  0 <= a -> 0 <= b -> 0 <= c -> a + b + c = 1 -> covers t (combination a b c s).
 Proof.
   intros (a0 & b0 & c0 & Ha0 & Hb0 & Hc0 & S0 & E0) (a1 & b1 & c1 & Ha1 & Hb1 & Hc1 & S1 & E1)
          (a2 & b2 & c2 & Ha2 & Hb2 & Hc2 & S2 & E2) Ha Hb Hc S.
@@ -134,7 +134,7 @@ Proof.
       with (a * (a0 + b0 + c0) + b * (a1 + b1 + c1) + c * (a2 + b2 + c2)) by ring.
     rewrite S0, S1, S2. lra.
   - destruct s as [s0 s1 s2]; cbn [corner0 corner1 corner2] in *. subst.
-    unfold weighted; cbn [px py pz corner0 corner1 corner2]. f_equal; ring.
+    unfold combination; cbn [px py pz corner0 corner1 corner2]. f_equal; ring.
 Qed.
 
 Lemma covers_corner0 t : covers t (corner0 t).
@@ -194,9 +194,9 @@ Lemma leaf_near t s u p :
   covers t p -> exists q, covers s q /\ distance p q <= u.
 Proof.
   intros (q0 & C0 & D0) (q1 & C1 & D1) (q2 & C2 & D2) (a & b & c & Ha & Hb & Hc & S & E).
-  exists (weighted a b c (Triangle q0 q1 q2)). split.
+  exists (combination a b c (Triangle q0 q1 q2)). split.
   - now apply covers_convex.
-  - subst p. apply weighted_near; try assumption. repeat split; assumption.
+  - subst p. apply combination_near; try assumption. repeat split; assumption.
 Qed.
 
 (** * The lower half, for a triangle *)
@@ -226,7 +226,7 @@ Proof.
     apply (Rmult_le_compat_l b) in K1; [ | assumption ].
     apply (Rmult_le_compat_l c) in K2; [ | assumption ].
     assert (V : along q = a * along (corner0 t) + b * along (corner1 t) + c * along (corner2 t)).
-    { subst q. unfold along, weighted; cbn [px py pz]. replace a with (1 - b - c) by lra. ring. }
+    { subst q. unfold along, combination; cbn [px py pz]. replace a with (1 - b - c) by lra. ring. }
     assert (l * sqrt n = a * (l * sqrt n) + b * (l * sqrt n) + c * (l * sqrt n)).
     { replace (a * (l * sqrt n) + b * (l * sqrt n) + c * (l * sqrt n))
         with ((a + b + c) * (l * sqrt n)) by ring. rewrite S. ring. }

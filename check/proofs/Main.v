@@ -110,7 +110,7 @@ Qed.
 (** * Meshes that are within the deltas *)
 
 Lemma within_back delta m m' t' :
-  within delta m m' -> In t' m' -> exists t, In t m /\ moved delta t t'.
+  within delta m m' -> In t' m' -> exists t, In t m /\ corners_within delta t t'.
 Proof.
   intros W. induction W as [ | s s' r r' M W IH]; intros I; [ destruct I | ].
   destruct I as [I | I].
@@ -119,7 +119,7 @@ Proof.
 Qed.
 
 Lemma within_forth delta m m' t :
-  within delta m m' -> In t m -> exists t', In t' m' /\ moved delta t t'.
+  within delta m m' -> In t m -> exists t', In t' m' /\ corners_within delta t t'.
 Proof.
   intros W. induction W as [ | s s' r r' M W IH]; intros I; [ destruct I | ].
   destruct I as [I | I].
@@ -140,9 +140,9 @@ Lemma surface_back delta m m' p' : within delta m m' -> surface m' p' ->
 Proof.
   intros W (t' & T & a & b & c & A & B & C & S & E).
   destruct (within_back _ _ _ _ W T) as (t & I & M).
-  exists (weighted a b c t). split.
+  exists (combination a b c t). split.
   - exists t. split; [ exact I | ]. now exists a, b, c.
-  - subst p'. now apply weighted_near.
+  - subst p'. now apply combination_near.
 Qed.
 
 Lemma surface_forth delta m m' p : within delta m m' -> surface m p ->
@@ -150,9 +150,9 @@ Lemma surface_forth delta m m' p : within delta m m' -> surface m p ->
 Proof.
   intros W (t & T & a & b & c & A & B & C & S & E).
   destruct (within_forth _ _ _ _ W T) as (t' & I & M).
-  exists (weighted a b c t'). split.
+  exists (combination a b c t'). split.
   - exists t'. split; [ exact I | ]. now exists a, b, c.
-  - subst p. now apply weighted_near.
+  - subst p. now apply combination_near.
 Qed.
 
 Lemma at_most_within a b a' b' da db u :
@@ -371,7 +371,7 @@ Qed.
 
 (** * The same of h(A,B), as a supremum of infima *)
 
-Lemma infimum b p : (exists q, surface b q) -> exists d, distance_to b p d.
+Lemma infimum b p : (exists q, surface b q) -> exists d, is_distance_to_surface b p d.
 Proof.
   intros (q0 & Q0).
   destruct (completeness (fun r => exists q, surface b q /\ r = - distance p q))
@@ -385,7 +385,7 @@ Proof.
       lra.
 Qed.
 
-Corollary interval it a b h : holds it a b -> hausdorff a b h ->
+Corollary interval it a b h : holds it a b -> directed_hausdorff a b h ->
   value (lower it) <= h <= value (upper it).
 Proof.
   intros [Up (p & P & Low)] [Bound Least]. split.

@@ -52,9 +52,9 @@ Lemma at_weights g t v x y : 0 <= x -> 0 <= y -> x + y <= 1 ->
   = g * g * (IZR (dot f f) - 2 * x * IZR (dot f (edge0 p)) - 2 * y * IZR (dot f (edge1 p))
              + x * x * IZR (d00 p) + 2 * x * y * IZR (d01 p) + y * y * IZR (d11 p)).
 Proof.
-  intros Hx Hy H p f. exists (weighted (1 - x - y) x y (real_triangle g t)). split.
+  intros Hx Hy H p f. exists (combination (1 - x - y) x y (real_triangle g t)). split.
   - exists (1 - x - y), x, y. repeat split; lra.
-  - subst p f. unfold prepare, dot, minus, square_distance, weighted, real_triangle, real.
+  - subst p f. unfold prepare, dot, minus, square_distance, combination, real_triangle, real.
     integer_points. reals. ring.
 Qed.
 
@@ -395,11 +395,11 @@ Qed.
 Lemma witness_real g it face : (0 <= weight_bits it)%Z ->
   let w := IZR (2 ^ weight_bits it) in
   real (g / w) (witness_of it face)
-  = weighted (1 - IZR (weight_j it) / w - IZR (weight_k it) / w) (IZR (weight_j it) / w)
+  = combination (1 - IZR (weight_j it) / w - IZR (weight_k it) / w) (IZR (weight_j it) / w)
              (IZR (weight_k it) / w) (real_triangle g face).
 Proof.
   intros B w. pose proof (power_positive _ B). fold w in H.
-  unfold witness_of, plus, times, weighted, real_triangle. fields. unfold real. fields.
+  unfold witness_of, plus, times, combination, real_triangle. fields. unfold real. fields.
   rewrite Z.shiftl_mul_pow2, Z.mul_1_l by assumption. reals. fold w. clearbody w.
   f_equal; field; lra.
 Qed.

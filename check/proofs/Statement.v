@@ -12,24 +12,25 @@ Definition distance (p q : point) : R :=
   sqrt ((px p - px q) ^ 2 + (py p - py q) ^ 2 + (pz p - pz q) ^ 2).
 
 (** The sum of a triangle's corners, with the weights a, b and c. *)
-Definition weighted (a b c : R) (t : triangle) : point :=
+Definition combination (a b c : R) (t : triangle) : point :=
   let sum f := a * f (corner0 t) + b * f (corner1 t) + c * f (corner2 t) in
   Point (sum px) (sum py) (sum pz).
 
 (** The points of a triangle: all convex combinations of its corners, which may coincide. *)
 Definition covers (t : triangle) (p : point) : Prop :=
-  exists a b c, 0 <= a /\ 0 <= b /\ 0 <= c /\ a + b + c = 1 /\ p = weighted a b c t.
+  exists a b c, 0 <= a /\ 0 <= b /\ 0 <= c /\ a + b + c = 1 /\ p = combination a b c t.
 
 (** The points of a mesh. *)
 Definition surface (m : list triangle) (p : point) : Prop := exists t, In t m /\ covers t p.
 
 (** Each corner of t is within delta of the same corner of s. *)
-Definition moved (delta : R) (s t : triangle) : Prop :=
+Definition corners_within (delta : R) (s t : triangle) : Prop :=
   distance (corner0 s) (corner0 t) <= delta /\ distance (corner1 s) (corner1 t) <= delta /\
   distance (corner2 s) (corner2 t) <= delta.
 
 (** The same faces in the same order, with corners that are within delta. *)
-Definition within (delta : R) : list triangle -> list triangle -> Prop := Forall2 (moved delta).
+Definition within (delta : R) : list triangle -> list triangle -> Prop :=
+  Forall2 (corners_within delta).
 
 (** The faces of a mesh by the places of their corners in an array. *)
 Definition by_index (vertices : nat -> point) (faces : list (nat * nat * nat)) : list triangle :=
@@ -44,9 +45,9 @@ Definition at_least (a b : list triangle) (l : R) : Prop :=
   exists p, surface a p /\ forall q, surface b q -> l <= distance p q.
 
 (** h(A,B) itself, as a supremum of infima. *)
-Definition distance_to (b : list triangle) (p : point) (d : R) : Prop :=
+Definition is_distance_to_surface (b : list triangle) (p : point) (d : R) : Prop :=
   (forall q, surface b q -> d <= distance p q) /\
   (forall d', (forall q, surface b q -> d' <= distance p q) -> d' <= d).
 
-Definition hausdorff (a b : list triangle) (h : R) : Prop :=
-  is_lub (fun d => exists p, surface a p /\ distance_to b p d) h.
+Definition directed_hausdorff (a b : list triangle) (h : R) : Prop :=
+  is_lub (fun d => exists p, surface a p /\ is_distance_to_surface b p d) h.
