@@ -385,16 +385,42 @@ Proof.
       lra.
 Qed.
 
+(** Neither mesh is empty. *)
+Lemma holds_not_empty it a b : holds it a b ->
+  (exists p, surface a p) /\ (exists q, surface b q).
+Proof.
+  intros [Up (p & P & _)]. split; [ now exists p | ].
+  destruct (Up p P) as (q & Q & _). now exists q.
+Qed.
+
+Lemma at_most_bounds it a b : holds it a b ->
+  is_upper_bound (fun d => exists p, surface a p /\ is_distance_to_surface b p d)
+    (value (upper it)).
+Proof.
+  intros [Up _] d (p & P & D & _). destruct (Up p P) as (q & Q & E). specialize (D q Q). lra.
+Qed.
+
 Corollary interval it a b h : holds it a b -> directed_hausdorff a b h ->
   value (lower it) <= h <= value (upper it).
 Proof.
-  intros [Up (p & P & Low)] [Bound Least]. split.
-  - destruct (Up p P) as (q0 & Q0 & _).
-    destruct (infimum b p (ex_intro _ q0 Q0)) as (d & D).
-    apply Rle_trans with d; [ now apply D | ]. apply Bound. now exists p.
-  - apply Least. intros d (p' & P' & D & _). destruct (Up p' P') as (q & Q & E).
-    specialize (D q Q). lra.
+  intros H [Bound Least]. split; [ | now apply Least, at_most_bounds ].
+  destruct (holds_not_empty it a b H) as [_ B]. destruct H as [_ (p & P & Low)].
+  destruct (infimum b p B) as (d & D).
+  apply Rle_trans with d; [ now apply D | ]. apply Bound. now exists p.
+Qed.
+
+(** There is such an h. *)
+Corollary interval_exists it a b : holds it a b ->
+  exists h, directed_hausdorff a b h /\ value (lower it) <= h <= value (upper it).
+Proof.
+  intros H. destruct (holds_not_empty it a b H) as [(p & P) B].
+  destruct (completeness (fun d => exists p, surface a p /\ is_distance_to_surface b p d))
+    as (h & L).
+  - exists (value (upper it)). now apply at_most_bounds.
+  - destruct (infimum b p B) as (d & D). now exists d, p.
+  - exists h. split; [ exact L | ]. now apply (interval it a b).
 Qed.
 
 Print Assumptions check_given_sound.
 Print Assumptions interval.
+Print Assumptions interval_exists.

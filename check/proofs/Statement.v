@@ -40,14 +40,16 @@ Definition by_index (vertices : nat -> point) (faces : list (nat * nat * nat)) :
 Definition at_most (a b : list triangle) (u : R) : Prop :=
   forall p, surface a p -> exists q, surface b q /\ distance p q <= u.
 
-(** h(A,B) >= l: a point of A has no point of B nearer than l. *)
+(** h(A,B) >= l: a point of A has no point of B nearer than l. An empty B would have none for any l;
+    at_most refuses it, and A is not empty here: see holds_not_empty in Main.v. *)
 Definition at_least (a b : list triangle) (l : R) : Prop :=
   exists p, surface a p /\ forall q, surface b q -> l <= distance p q.
 
-(** h(A,B) itself, as a supremum of infima. *)
+(** d is the distance of p from B: the infimum of the distances of p from the points of B. *)
 Definition is_distance_to_surface (b : list triangle) (p : point) (d : R) : Prop :=
   (forall q, surface b q -> d <= distance p q) /\
   (forall d', (forall q, surface b q -> d' <= distance p q) -> d' <= d).
 
+(** h is h(A,B): the supremum of the distances of the points of A from B. *)
 Definition directed_hausdorff (a b : list triangle) (h : R) : Prop :=
   is_lub (fun d => exists p, surface a p /\ is_distance_to_surface b p d) h.
