@@ -184,7 +184,7 @@ Definition beyond (reach p a b c : Z) : bool :=
   (high <=? a) && (high <=? b) && (high <=? c) || (a <=? low) && (b <=? low) && (c <=? low).
 
 (** Whether the triangle is at least the root of n / d away from p. One of the seven directions is
-    from the nearest point, so that nothing is lost; that is not needed for the theorem. *)
+    meant to be from the nearest point. No lemma says so: without it more would be refused. *)
 Definition away (n d reach : Z) (p : ipoint) (t : itriangle) : bool :=
   beyond reach (ix p) (ix (i0 t)) (ix (i1 t)) (ix (i2 t))
   || beyond reach (iy p) (iy (i0 t)) (iy (i1 t)) (iy (i2 t))
