@@ -5,6 +5,13 @@ open Certificate_file
 
 let number data at = parts_of (Int64.float_of_bits (String.get_int64_le data at))
 
+(* Whether all numbers are finite. The bits of others would be taken for a number, too. *)
+let all_finite data =
+  let rec from at =
+    at >= String.length data
+    || (Float.is_finite (Int64.float_of_bits (String.get_int64_le data at)) && from (at + 8)) in
+  from 0
+
 (* The least exponent of the numbers that are not 0; max_int where all are. *)
 let least count number_of =
   let out = ref max_int in

@@ -6,6 +6,7 @@
    1 refused, 2 usage, 4 broken, 6 the answer cannot be written. *)
 
 exception Refused of string
+exception Unreadable of string
 
 let contents name =
   let channel = open_in_bin name in
@@ -17,6 +18,8 @@ let corners (file : Certificate_file.t) which name =
   let expect holds what = if not holds then raise (Refused (name ^ what)) in
   expect (String.length data = 72 * file.faces.(which)) ": has another number of faces";
   expect (Sha256.of_string data = file.hashes.(which)) ": has other corners (SHA-256)";
+  if not (Corners_file.all_finite data) then
+    raise (Unreadable (name ^ ": has a coordinate that is not finite"));
   data
 
 let check certificate a b =
@@ -42,7 +45,7 @@ let () =
     (try check certificate a b with
     | Refused what -> complain ("refused: " ^ what) 1
     | Certificate_file.Broken what -> complain (certificate ^ ": " ^ what) 4
-    | Sys_error what -> complain what 4
+    | Unreadable what | Sys_error what -> complain what 4
     | error -> complain (Printexc.to_string error) 4);
     try flush stdout with Sys_error what -> complain ("cannot write the answer: " ^ what) 6)
   | _ -> complain "usage: vkh_check_proven CERTIFICATE CORNERS_A CORNERS_B" 2

@@ -269,6 +269,17 @@ class Check(unittest.TestCase):
         self.expect(REFUSED, self.certificate(a, b, [direction(1, 1, [block(*faces[:2999], leaf(0))])]),
                     "face 2999, leaf 0: farther than upper from triangle 2998")
 
+    @unittest.skipUnless(PROVEN_CHECKER, "of the proven checker alone: vkh_check reads no such mesh")
+    def test_corners_that_are_not_finite(self):
+        for x, code in ((2.0, PROVEN), (math.inf, BROKEN), (-math.inf, BROKEN), (math.nan, BROKEN)):
+            mesh = [((0, 0, 0), (1, 0, 0), (0, 1, x))]
+            path, corners = self.folder / "c.vhc", self.folder / "corners"
+            path.write_bytes(self.certificate(mesh, mesh, [direction(0, 0, [block(leaf())])]))
+            corners.write_bytes(struct.pack("<9d", *(y for corner in mesh[0] for y in corner)))
+            done = subprocess.run([PROVEN_CHECKER, path, corners, corners], capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+            self.assertIn("proven:" if code == PROVEN else "not finite", done.stdout + done.stderr)
+
     def test_delta(self):
         def of(lower, upper, delta):
             return self.certificate(HIGH, FLAT, [direction(lower, upper, [block(leaf())], (0, 0, 0, 0))], delta)
