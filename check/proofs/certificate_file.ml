@@ -1,6 +1,6 @@
 (* Reads the bytes of a certificate, docs/certificate-file.md, into the certificate of the theorem.
-   Nothing of this is proven, and soundness needs nothing of it but what it prints: lower, upper,
-   the deltas, and where the meshes lie. *)
+   Nothing of this is proven. Soundness needs of it that lower, upper, the deltas and where the
+   meshes lie are as the file has them, and that the numbers of triangles are 1 or more. *)
 
 exception Broken of string
 
