@@ -436,7 +436,7 @@ Area Drawing::place_for_label(const Panel& panel, const Layer& layer, const Labe
       double cost = covered(layer, views, box) + far / 500;
       if (box.inner(-clear).has(tip)) cost += 9;
       if (std::any_of(taken.begin(), taken.end(), [&](const Placed& other) {
-            return is_in_the_way(other.box, other.tip, box, tip);
+            return is_in_the_way(other.box, other.tip, box, label.tip);
           }))
         cost += 9;
       if (cost >= least) continue;
