@@ -74,9 +74,9 @@ class XyzReader {
 
   void refuse_commas() const {
     TextScanner ahead = scanner_;
-    const std::string word(ahead.word());
-    if (word.find_first_of(",;") != std::string::npos)
-      ahead.fail("a comma or a semicolon in '" + word + "'",
+    const std::string_view word = ahead.word();
+    if (word.find_first_of(",;") != std::string_view::npos)
+      ahead.fail("a comma or a semicolon in " + quoted(word),
                  "blanks between columns, and points in decimals: x y z");
   }
 
