@@ -48,7 +48,7 @@ CODES = {pair["id"]: code for pair, code in PAIRS}
 
 
 def run(*words, folder):
-    return subprocess.run([PROGRAM, *words], cwd=folder, capture_output=True, text=True, timeout=120)
+    return subprocess.run([PROGRAM, *words], cwd=folder, capture_output=True, text=True, timeout=600)
 
 
 def lines_of(path):

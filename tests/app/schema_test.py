@@ -26,7 +26,7 @@ SQUARE = "v 0 0 {z}\nv {x} 0 {z}\nv {x} 1 {z}\nv 0 1 {z}\nf 1 2 3\nf 1 3 4\n"
 
 
 def run(*words, folder):
-    return subprocess.run([PROGRAM, *words], cwd=folder, capture_output=True, timeout=120)
+    return subprocess.run([PROGRAM, *words], cwd=folder, capture_output=True, timeout=600)
 
 
 class Outputs(unittest.TestCase):
