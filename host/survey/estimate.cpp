@@ -113,55 +113,63 @@ double sum_of(const std::array<float, 3>& values) {
   return sum;
 }
 
+// The corners of a cell and its middle, in the frame, and their distances from some faces of B.
+struct MeasuredCell {
+  std::array<glm::dvec3, 3> at{};
+  glm::dvec3 middle_at{};
+  std::array<double, 3> corners{};
+  double middle = 0;
+};
+
 class CellEstimator {
  public:
   explicit CellEstimator(const SurveyedPair& pair)
       : a_(pair.a, pair.frame), b_(pair.b, pair.frame) {}
 
   AllFaces all_faces() const { return AllFaces(b_); }
-  CellEstimate of(const gpu::Cell& cell, const gpu::CellBounds& b) const {
-    return of(cell, b, NamedFaces(b, b_));
+  NamedFaces named_by(const gpu::CellBounds& b) const { return NamedFaces(b, b_); }
+
+  template <class Faces>
+  MeasuredCell measured(const gpu::Cell& cell, const Faces& faces) const {
+    MeasuredCell found;
+    found.at = corners_in_frame(cell);
+    found.middle_at = (found.at[0] + found.at[1] + found.at[2]) / 3.0;
+    for (size_t i = 0; i < found.at.size(); ++i) found.corners[i] = faces.distance(found.at[i]);
+    found.middle = faces.distance(found.middle_at);
+    return found;
   }
 
   // Whether the faces that the bounds name may not be those that are closest at the corners: they
   // are not where they are farther than any distance over the cell, or than the middle's and the
   // way from there.
-  bool may_miss_faces(const gpu::Cell& cell, const gpu::CellBounds& b) const {
+  static bool may_miss_faces(const MeasuredCell& cell, const gpu::CellBounds& b) {
     constexpr double kRounding = 1e-5;
-    const NamedFaces faces(b, b_);
-    const std::array<glm::dvec3, 3> at = corners_in_frame(cell);
-    const glm::dvec3 middle = (at[0] + at[1] + at[2]) / 3.0;
-    const double of_middle = faces.distance(middle);
-    for (const glm::dvec3& corner : at) {
-      const double d = faces.distance(corner);
-      const double most =
-          std::min(static_cast<double>(b.highest), of_middle + glm::distance(corner, middle));
-      if (d > most * (1 + kRounding)) return true;
-      if (has_one_lower_bound(b) && d > static_cast<double>(lowest(b))) return true;
+    for (size_t i = 0; i < cell.at.size(); ++i) {
+      const double most = std::min(static_cast<double>(b.highest),
+                                   cell.middle + glm::distance(cell.at[i], cell.middle_at));
+      if (cell.corners[i] > most * (1 + kRounding)) return true;
+      if (has_one_lower_bound(b) && cell.corners[i] > static_cast<double>(lowest(b))) return true;
     }
     return false;
   }
 
   // Weights of 1/12 for each corner and 3/4 for the centroid make the mean of a quadratic function
   // over a triangle.
-  template <class Faces>
-  CellEstimate of(const gpu::Cell& cell, const gpu::CellBounds& b, const Faces& faces) const {
-    const std::array<glm::dvec3, 3> at = corners_in_frame(cell);
+  static CellEstimate of(const MeasuredCell& cell, const gpu::CellBounds& b) {
     const auto highest = static_cast<double>(b.highest);
     const std::array<float, 3> lower{b.lower_a, b.lower_b, b.lower_c};
     const std::array<float, 3> upper{b.upper_a, b.upper_b, b.upper_c};
     CellEstimate found;
     double mean = 0, square = 0;
-    for (size_t i = 0; i < at.size(); ++i) {
-      const double d = between_bounds(faces.distance(at[i]), static_cast<double>(lower[i]),
+    for (size_t i = 0; i < cell.corners.size(); ++i) {
+      const double d = between_bounds(cell.corners[i], static_cast<double>(lower[i]),
                                       std::min(static_cast<double>(upper[i]), highest));
       found.corners[i] = static_cast<float>(d);
       mean += d / 12;
       square += d * d / 12;
     }
     const double least = mean_lower(b), most = static_cast<double>(b.mean_upper);
-    const double middle = between_bounds(faces.distance((at[0] + at[1] + at[2]) / 3.0), least,
-                                         std::min(sum_of(upper) / 3, highest));
+    const double middle = between_bounds(cell.middle, least, std::min(sum_of(upper) / 3, highest));
     found.middle = static_cast<float>(middle);
     found.mean = static_cast<float>(between_bounds(mean + 0.75 * middle, least, most));
     found.square = static_cast<float>(
@@ -225,8 +233,10 @@ Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Are
   std::vector<std::vector<size_t>> coarse(block_count(cells.count()));
   for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      of_cell_[i] = estimator.of(cells.cell(i), cells.bounds(i));
-      if (estimator.may_miss_faces(cells.cell(i), cells.bounds(i))) coarse[block].push_back(i);
+      const gpu::CellBounds& bounds = cells.bounds(i);
+      const MeasuredCell cell = estimator.measured(cells.cell(i), estimator.named_by(bounds));
+      of_cell_[i] = CellEstimator::of(cell, bounds);
+      if (CellEstimator::may_miss_faces(cell, bounds)) coarse[block].push_back(i);
     }
   });
   const auto has_some = [](const std::vector<size_t>& block) { return !block.empty(); };
@@ -234,7 +244,7 @@ Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Are
   const AllFaces faces = estimator.all_faces();
   for_each_block(cells.count(), [&](size_t block, size_t, size_t) {
     for (const size_t i : coarse[block])
-      of_cell_[i] = estimator.of(cells.cell(i), cells.bounds(i), faces);
+      of_cell_[i] = CellEstimator::of(estimator.measured(cells.cell(i), faces), cells.bounds(i));
   });
 }
 
