@@ -6,16 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "host/gpu/queue_family.h"
 #include "host/gpu/vulkan_api.h"
 
 namespace vkh {
 namespace {
-
-std::string version_text(uint32_t version) {
-  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
-         std::to_string(VK_API_VERSION_MINOR(version)) + "." +
-         std::to_string(VK_API_VERSION_PATCH(version));
-}
 
 /// The chain that Vulkan fills, each structure once.
 struct Properties {
@@ -62,12 +57,10 @@ struct Features {
 };
 
 std::vector<VkExtensionProperties> extensions_of(const Device& device) {
-  uint32_t count = 0;
-  const auto enumerate = device.vk().EnumerateDeviceExtensionProperties;
-  check(enumerate(device.physical(), nullptr, &count, nullptr), "the list of extensions");
-  std::vector<VkExtensionProperties> list(count);
-  check(enumerate(device.physical(), nullptr, &count, list.data()), "the list of extensions");
-  return list;
+  return list_of<VkExtensionProperties>([&](uint32_t* count, VkExtensionProperties* all) {
+    check(device.vk().EnumerateDeviceExtensionProperties(device.physical(), nullptr, count, all),
+          "the list of extensions");
+  });
 }
 
 Json extensions_json(const std::vector<VkExtensionProperties>& list) {
@@ -158,13 +151,8 @@ Json features_json(const Device& device) {
 }
 
 Json queues_json(const Device& device) {
-  uint32_t count = 0;
-  const auto list = device.vk().GetPhysicalDeviceQueueFamilyProperties;
-  list(device.physical(), &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  list(device.physical(), &count, families.data());
   Json rows = Json::array();
-  for (const VkQueueFamilyProperties& f : families)
+  for (const VkQueueFamilyProperties& f : queue_families(device.vk(), device.physical()))
     rows.push_back({{"queueFlags", f.queueFlags},
                     {"queueCount", f.queueCount},
                     {"timestampValidBits", f.timestampValidBits}});
@@ -209,7 +197,7 @@ Json properties_json(const Device& device) {
                {"deviceType", device.description().type},
                {"vendorID", base.vendorID},
                {"deviceID", base.deviceID},
-               {"apiVersion", version_text(base.apiVersion)},
+               {"apiVersion", device.description().api_version},
                {"driver", driver_json(all)},
                {"limits", limits_json(base.limits)}};
   json["limits"]["maxMemoryAllocationSize"] = all.v11.maxMemoryAllocationSize;

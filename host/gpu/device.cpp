@@ -38,17 +38,6 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::atomic<uint32_t>* count) 
   return info;
 }
 
-/// Lists what Vulkan reports in two calls: how many, then which. `call` takes the count and the
-/// array.
-template <class T, class Call>
-std::vector<T> list_of(const Call& call) {
-  uint32_t count = 0;
-  call(&count, nullptr);
-  std::vector<T> list(count);
-  call(&count, list.data());
-  return list;
-}
-
 bool has_layer(const VulkanApi& vk, const char* name) {
   const auto layers = list_of<VkLayerProperties>(vk.EnumerateInstanceLayerProperties);
   return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& l) {
@@ -131,11 +120,6 @@ int rank_of(const DeviceDescription& d) {
   const auto at = std::find(order.begin(), order.end(), d.type);
   const bool is_other_cpu = d.type == "cpu" && !d.name.starts_with("llvmpipe");
   return static_cast<int>(at - order.begin()) + (is_other_cpu ? 1 : 0);
-}
-
-std::string version_text(uint32_t v) {
-  return std::to_string(VK_API_VERSION_MAJOR(v)) + "." + std::to_string(VK_API_VERSION_MINOR(v)) +
-         "." + std::to_string(VK_API_VERSION_PATCH(v));
 }
 
 uint64_t largest_local_heap(const VulkanApi& vk, VkPhysicalDevice physical) {

@@ -11,11 +11,9 @@ namespace vkh {
 
 inline std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
                                                            VkPhysicalDevice physical) {
-  uint32_t count = 0;
-  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-  return families;
+  return list_of<VkQueueFamilyProperties>([&](uint32_t* count, VkQueueFamilyProperties* all) {
+    vk.GetPhysicalDeviceQueueFamilyProperties(physical, count, all);
+  });
 }
 
 inline bool draws(const VkQueueFamilyProperties& family) {

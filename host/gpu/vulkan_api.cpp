@@ -38,6 +38,12 @@ void load_device(VulkanApi& vk, VkDevice device) {
 #undef VKH_LOAD
 }
 
+std::string version_text(uint32_t version) {
+  return std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+         std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+         std::to_string(VK_API_VERSION_PATCH(version));
+}
+
 void check(VkResult result, const char* what) {
   if (result == VK_SUCCESS) return;
   static constexpr std::array<std::pair<VkResult, const char*>, 10> kReasons{

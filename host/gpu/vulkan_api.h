@@ -4,6 +4,9 @@
 
 #include <vulkan/vulkan.h>
 
+#include <string>
+#include <vector>
+
 namespace vkh {
 
 #define VKH_GLOBAL_API(X)                 \
@@ -97,6 +100,20 @@ struct VulkanApi {
   VKH_DEVICE_API(VKH_MEMBER)
 #undef VKH_MEMBER
 };
+
+/// Lists what Vulkan reports in two calls: how many, then which. `call` takes the count and the
+/// array.
+template <class T, class Call>
+std::vector<T> list_of(const Call& call) {
+  uint32_t count = 0;
+  call(&count, nullptr);
+  std::vector<T> list(count);
+  call(&count, list.data());
+  return list;
+}
+
+/// A version of Vulkan for people: "1.3.230".
+std::string version_text(uint32_t version);
 
 /// Opens the loader. Throws DeviceError if there is none.
 VulkanApi load_vulkan();

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <vector>
 
+#include "host/gpu/queue_family.h"
 #include "host/gpu/vulkan_api.h"
 #include "vkhausdorff/error.h"
 
@@ -102,17 +103,6 @@ VkDevice make_device(const VulkanApi& vk, const VkhDeviceInfo& chosen, const Fea
   return device;
 }
 
-uint32_t compute_family(const VulkanApi& vk, VkPhysicalDevice physical) {
-  uint32_t count = 0;
-  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-  for (uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0) return i;
-  }
-  throw vkh::DeviceError("no queue for compute");
-}
-
 }  // namespace
 
 StatisticsDevice::StatisticsDevice() {
@@ -124,7 +114,7 @@ StatisticsDevice::StatisticsDevice() {
   vk.EnumeratePhysicalDevices(made_.instance, &count, &made_.physical);
   if (count == 0) throw vkh::DeviceError("no Vulkan device");
   made_.get_instance_proc_addr = vk.GetInstanceProcAddr;
-  made_.queue_family = compute_family(vk, made_.physical);
+  made_.queue_family = vkh::compute_family(vkh::queue_families(vk, made_.physical));
   const Features features(vk, made_.physical);
   if (features.executables.pipelineExecutableInfo != VK_TRUE)
     throw vkh::DeviceError("the driver has no statistics of pipelines");
