@@ -42,17 +42,6 @@ constexpr std::array kColumns{Column{"id", &Entry::id},
                               Column{"signed", nullptr, &Entry::is_signed}};
 constexpr size_t kNeeded = 3;  // the first ones
 
-}  // namespace
-
-std::string list_columns() {
-  std::string text;
-  for (size_t i = 0; i < kColumns.size(); ++i)
-    text += (i == 0 ? "" : i == kNeeded ? " and perhaps " : ", ") + std::string(kColumns[i].name);
-  return text;
-}
-
-namespace {
-
 std::string lower_word(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -94,9 +83,9 @@ class Collected {
   explicit Collected(std::string path) : path_(std::move(path)), folder_(folder_of_list(path_)) {}
 
   void take(Entry entry, uint64_t line) {
-    for (const auto& [name, text] :
-         {std::pair{"id", &entry.id}, {"a", &entry.a}, {"b", &entry.b}}) {
-      if (text->empty()) refuse(line, std::string("no ") + name + "; expected " + list_columns());
+    for (size_t i = 0; i < kNeeded; ++i) {
+      if ((entry.*kColumns[i].text).empty())
+        refuse(line, std::string("no ") + kColumns[i].name + "; expected " + list_columns());
     }
     // A result could not hold such an id: two of them might become one there.
     if (!is_utf8(entry.id)) refuse(line, "the id '" + entry.id + "' is no UTF-8");
@@ -127,7 +116,8 @@ class Collected {
 
 // Requires each of the three columns once.
 void check_heading(const std::vector<std::string>& heading, uint64_t line, const Collected& to) {
-  for (const char* name : {"id", "a", "b"}) {
+  for (size_t i = 0; i < kNeeded; ++i) {
+    const char* const name = kColumns[i].name;
     const auto times = std::count(heading.begin(), heading.end(), name);
     if (times == 1) continue;
     to.refuse(line, std::string(times == 0 ? "no" : "more than one") + " column '" + name +
@@ -212,6 +202,13 @@ void read_jsonl(std::istream& text, Collected& to) {
 }
 
 }  // namespace
+
+std::string list_columns() {
+  std::string text;
+  for (size_t i = 0; i < kColumns.size(); ++i)
+    text += (i == 0 ? "" : i == kNeeded ? " and perhaps " : ", ") + std::string(kColumns[i].name);
+  return text;
+}
 
 bool is_utf8(const std::string& text) {
   try {
