@@ -49,11 +49,7 @@ class FaceWriter {
     const double light = light_on(normal_seen(at, camera_.scale));
     const uint8_t edges = edge_strength(at[0], at[1], at[2]);
     for (size_t i = 0; i < at.size(); ++i) {
-      const glm::dvec3 clip = camera_.clipped(at[i]);
-      corners[i] = corner_of(look, light, edges);
-      corners[i].x = static_cast<float>(clip.x);
-      corners[i].y = static_cast<float>(clip.y);
-      corners[i].z = static_cast<float>(clip.z);
+      corners[i] = corner_of(look, light, edges).placed_at(camera_.clipped(at[i]));
     }
   }
 

@@ -92,11 +92,7 @@ class CellWriter {
     const std::array<glm::dvec3, 3> at = pixels_of(cell);
     const double light = light_on(normal_seen(at, camera_.scale));
     for (size_t k = 0; k < at.size(); ++k) {
-      const glm::dvec3 clip = camera_.clipped(at[k]);
-      corners[k] = look_at(cell, k, light);
-      corners[k].x = static_cast<float>(clip.x);
-      corners[k].y = static_cast<float>(clip.y);
-      corners[k].z = static_cast<float>(clip.z);
+      corners[k] = look_at(cell, k, light).placed_at(camera_.clipped(at[k]));
     }
   }
 

@@ -20,6 +20,15 @@ struct Corner {
   uint8_t hatched = 0, by_share = 0;
   uint8_t is_disc = 0;  ///< the circle inscribed in the face is drawn
   uint8_t pad = 0;
+
+  /// The same corner at a place in clip space.
+  Corner placed_at(const glm::dvec3& clip) const {
+    Corner corner = *this;
+    corner.x = static_cast<float>(clip.x);
+    corner.y = static_cast<float>(clip.y);
+    corner.z = static_cast<float>(clip.z);
+    return corner;
+  }
 };
 
 /// Writes the corners of `face_count` faces; one that is not to be seen has three times the same.

@@ -4,17 +4,14 @@
 #include <array>
 
 namespace vkh::drawing {
+
 void put_disc(const Camera& camera, const glm::dvec3& pixel, const Corner& look, Corner* corners) {
   constexpr double kHalfRoot3 = 0.8660254037844386;
   const double far = 2 * camera.disc();  // an inscribed circle has half the circle's radius
   constexpr std::array<glm::dvec2, 3> kWays{glm::dvec2{0, -1}, glm::dvec2{kHalfRoot3, 0.5},
                                             glm::dvec2{-kHalfRoot3, 0.5}};
   for (size_t i = 0; i < kWays.size(); ++i) {
-    const glm::dvec3 clip = camera.clipped(pixel + glm::dvec3(far * kWays[i], 0));
-    corners[i] = look;
-    corners[i].x = static_cast<float>(clip.x);
-    corners[i].y = static_cast<float>(clip.y);
-    corners[i].z = static_cast<float>(clip.z);
+    corners[i] = look.placed_at(camera.clipped(pixel + glm::dvec3(far * kWays[i], 0)));
     corners[i].is_disc = 1;
   }
 }
