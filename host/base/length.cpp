@@ -46,7 +46,8 @@ constexpr const char* kUnitNames = "um, mm, cm, m, in or ft";
 
 /// Encloses x, the result of a product and a quotient or two in Float128 (113 bits) from a number
 /// of 53 bits. The number was rounded to nearest, twice if it was a percentage. A diagonal is off
-/// by four ulps at most: its extents are rounded, and so is hypot3 (host/base/hypot3.h).
+/// by six ulps at most: its extents are rounded, by 2^-53 of themselves, and hypot3 adds 5 of these
+/// (host/base/hypot3.h), where an ulp is at least 2^-53.
 Limit around(Float128 x) {
   constexpr int kUlps = 16;
   const auto nearest = static_cast<double>(x);

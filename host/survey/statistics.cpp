@@ -42,7 +42,8 @@ struct FaceArea {
 double length_of(const glm::dvec3& v) { return hypot3(v.x, v.y, v.z); }
 
 // Half of |e x f|. Differences are off by kUnit of themselves, a component of the product by 4
-// kUnit of its parts, so the vector by less than 16 |e| |f| kUnit, and its length by 4 of itself.
+// kUnit of its parts, so the vector by less than 16 |e| |f| kUnit, its length by
+// 5 kUnit of itself besides, and half of that by less than 16 |e| |f| kUnit in all.
 // If a product underflows it is off by 2^-1075, a component by twice that, and so all of it by less
 // than 2^-1072. Vertices that are off by delta move it by 2 delta (|e| + |f| + 2 delta).
 FaceArea area_of(const glm::dvec3& e, const glm::dvec3& f, double delta) {
