@@ -68,7 +68,8 @@ std::optional<Enclosure> map_range(const Finishing& at) {
   return Enclosure{end((*at.question.map_range)[0]), end((*at.question.map_range)[1])};
 }
 
-// What a picture of the map says of its colours. Its bar ends at the larger limit, or the map's.
+// Adds the shares that a picture of the map names beside its colours. Its bar ends at the larger
+// limit, or where the map says.
 void add_shares(const Finishing& at, double upper, SurveyResult& survey) {
   if (!survey.map || survey.map->cells.empty()) return;
   BarOptions options{.upper = upper, .range = map_range(at)};

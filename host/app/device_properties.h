@@ -1,4 +1,4 @@
-// What Vulkan says of a device, as JSON.
+// Properties of a device as Vulkan reports them, as JSON.
 #pragma once
 
 #include <string>

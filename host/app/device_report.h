@@ -9,7 +9,7 @@
 
 namespace vkh {
 
-/// What the doctor found out about one device.
+/// The doctor's findings about one device.
 struct Examination {
   SelfTestResult arithmetic;
   double lower = 0, upper = 0;  ///< the self-check's interval

@@ -15,7 +15,7 @@ double fitted_size(const std::string& text, double size, double width) {
   return std::min(size, size * width / std::max(text_width(text, size), 1e-9));
 }
 
-// What shares are of.
+// Names the whole that shares are parts of.
 const char* of_what(const Picture& picture) {
   return picture.mesh.are_points ? " of the points" : " of the area";
 }

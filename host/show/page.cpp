@@ -228,7 +228,7 @@ class PageWriter {
     return side;
   }
 
-  // What shares of a direction are of.
+  // Names the whole that shares of a direction are parts of.
   static std::string of_text(const PageSide& side) {
     return std::string(side.drawn.mesh.are_points ? "points of " : "area of ") +
            (side.drawn.back ? "B" : "A");

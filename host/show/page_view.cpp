@@ -64,7 +64,7 @@ std::string percentile_name(const Percentile& p, bool are_points) {
          (are_points ? " % of the points are within" : " % of the area is within");
 }
 
-// What --max-distance leaves out of all that follows.
+// Says how much --max-distance leaves out of the rows below it.
 Json left_out_row(const Answer& answer, const Statistics& s) {
   const Enclosure rest{1 - s.kept->upper, 1 - s.kept->lower};
   return named("left out, farther than " + length_text(answer, {s.max_distance, s.max_distance}),

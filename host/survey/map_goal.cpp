@@ -161,7 +161,8 @@ void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const Goe
                      CellMap& map) {
   const Sides sides(pair, goes_on);
   if (!sides.is_shared()) return;
-  // What is nearer has the colour of nought; where all is, the worst places are to have sides.
+  // Nearer cells have the colour of nought. Where all cells are nearer, the worst places still get
+  // sides.
   constexpr double kOfLargest = 0.5;
   const double above = std::min(CellMap::kUnresolved * map.bar / map.unit,
                                 kOfLargest * static_cast<double>(cells.reached()));

@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// What decides a map's bar, in the files' units.
+/// The lengths that decide a map's bar, in the files' units.
 struct BarOptions {
   std::optional<Limit> limit = {};
   std::optional<SidedLimits> sided = {};  ///< in place of `limit`

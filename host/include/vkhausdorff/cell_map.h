@@ -87,7 +87,8 @@ struct MapShares {
   double above = 0, below = 0;  ///< outside of the bar
   double unresolved = 0, no_side = 0;
   double left_out = 0;  ///< by CellMap::max_distance: in none of the others
-  /// Of what is not left out: probably within the limits; without a side, within both.
+  /// Cells that are probably within the limits, or within both if they have no side: their share of
+  /// what is not left out.
   double within = 0;
   double mean =
       0;  ///< of the distance of what is not left out, without a sign, in the files' units
