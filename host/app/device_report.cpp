@@ -114,15 +114,14 @@ std::string timed_sizes(Device& device) {
   return rows.dump();
 }
 
-std::string device_report(const std::vector<DeviceDescription>& devices, const Device* device,
-                          const Examination* found, const std::string& sizes,
-                          const std::string& problem) {
+std::string device_report(const Machine& machine, const Device* device, const Examination* found,
+                          const std::string& sizes, const std::string& problem) {
   Json json = {{"schema", "vkhausdorff.device-report/1"},
                {"version", program_version()},
                {"system", system_name()},
-               {"loader", loader_version()},
+               {"loader", machine.loader},
                {"problem", text_or_null(problem)},
-               {"devices", devices_json(devices)}};
+               {"devices", devices_json(machine.devices)}};
   json["device"] = device == nullptr ? Json() : properties_json(*device);
   json["arithmetic"] = found == nullptr ? Json() : arithmetic_json(found->arithmetic);
   json["subgroup_operations"] = found == nullptr ? Json() : groups_json(found->arithmetic);

@@ -9,6 +9,12 @@
 
 namespace vkh {
 
+/// The loader and the devices that Vulkan lists: as much of it as was found out before a problem.
+struct Machine {
+  std::string loader = {};  ///< its version
+  std::vector<DeviceDescription> devices = {};
+};
+
 /// The doctor's findings about one device.
 struct Examination {
   SelfTestResult arithmetic;
@@ -23,8 +29,7 @@ std::string timed_sizes(Device& device);
 
 /// The document, with its last line's end. `found` is null where no device could be opened, and
 /// then `device`, too; `problem` says why. `sizes` is what timed_sizes() returned, or empty.
-std::string device_report(const std::vector<DeviceDescription>& devices, const Device* device,
-                          const Examination* found, const std::string& sizes,
-                          const std::string& problem);
+std::string device_report(const Machine& machine, const Device* device, const Examination* found,
+                          const std::string& sizes, const std::string& problem);
 
 }  // namespace vkh

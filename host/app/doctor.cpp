@@ -76,6 +76,12 @@ void print_device(std::ostream& out, const DeviceDescription& d) {
       << " GiB: " << (d.usable ? "usable" : "not usable: " + d.reason) << '\n';
 }
 
+void print_devices(std::ostream& out, const std::vector<DeviceDescription>& devices) {
+  for (const DeviceDescription& d : devices) print_device(out, d);
+  if (devices.empty()) out << "  none\n";
+  out.flush();
+}
+
 void print_chosen(std::ostream& out, const DeviceDescription& chosen) {
   out << "chosen      " << chosen.index << "  " << chosen.name
       << (chosen.type == "cpu" ? " (a CPU device, no GPU)" : "") << "\ndriver      "
@@ -83,8 +89,7 @@ void print_chosen(std::ostream& out, const DeviceDescription& chosen) {
 }
 
 /// Returns whether the device can be trusted. Throws DeviceError where a check could not be run.
-bool examine(std::ostream& out, Device& device, const std::vector<DeviceDescription>& devices,
-             const OutputFile* report) {
+bool examine(std::ostream& out, Device& device, const Machine& machine, const OutputFile* report) {
   Examination found;
   check_arithmetic(out, device, found);
   self_check(out, device, found);
@@ -96,27 +101,27 @@ bool examine(std::ostream& out, Device& device, const std::vector<DeviceDescript
   } catch (const DeviceError& error) {
     problem = error.what();
   }
-  report->write(device_report(devices, &device, &found, sizes, problem));
+  report->write(device_report(machine, &device, &found, sizes, problem));
   return is_sound;
 }
 
 }  // namespace
 
 bool examine_devices(std::ostream& out, const std::string& selector, const OutputFile* report) {
-  out << "vkhausdorff " << program_version() << "\nloader      Vulkan " << loader_version()
-      << "\ndevices, the preferred first\n";
-  const std::vector<DeviceDescription> devices = list_devices();
-  for (const DeviceDescription& d : devices) print_device(out, d);
-  if (devices.empty()) out << "  none\n";
-  out.flush();
+  Machine machine;
   std::optional<Device> device;
   try {
+    out << "vkhausdorff " << program_version() << '\n';
+    machine.loader = loader_version();
+    out << "loader      Vulkan " << machine.loader << "\ndevices, the preferred first\n";
+    machine.devices = list_devices();
+    print_devices(out, machine.devices);
     device.emplace(DeviceRequest{.selector = selector});
     print_chosen(out, device->description());
-    return examine(out, *device, devices, report);
+    return examine(out, *device, machine, report);
   } catch (const DeviceError& error) {
     if (report != nullptr)
-      report->write(device_report(devices, device ? &*device : nullptr, nullptr, "", error.what()));
+      report->write(device_report(machine, device ? &*device : nullptr, nullptr, "", error.what()));
     throw;
   }
 }

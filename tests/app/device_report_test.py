@@ -72,6 +72,11 @@ class Reports(unittest.TestCase):
         self.assertNotIn("VK_KHR_push_descriptor", report["device"]["extensions"])
         self.assertIsNone(report["device"]["limits"]["maxPushDescriptors"])
 
+    def test_a_machine_without_a_driver(self):
+        report = self.doctor(5, VK_DRIVER_FILES="/nowhere/icd.json", VK_ICD_FILENAMES="/nowhere/icd.json")
+        self.assertIn("no compatible driver", report["problem"])
+        self.assertEqual((report["devices"], report["device"]), ([], None))
+
     def test_a_machine_without_a_device(self):
         report = self.doctor(5, "--device", "none such")
         self.assertIn("none such", report["problem"])
