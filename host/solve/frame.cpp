@@ -251,17 +251,18 @@ StoredPoint store_point(const Frame& frame, const glm::dvec3& point) {
 }
 
 FramedPair frame_pair(const Mesh& a, const Mesh& b) {
-  const Box joint = join(bounding_box(a), bounding_box(b));
+  const Box box_a = bounding_box(a), box_b = bounding_box(b), joint = join(box_a, box_b);
   if (may_keep_origin(joint)) {
     const Frame frame = frame_around(joint, glm::dvec3(0));
     std::optional<StoragePlan> stored_a = store_exactly(frame, a);
     std::optional<StoragePlan> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
     if (stored_b) {
-      return {frame, with_delta(*stored_a, frame, a), with_delta(*stored_b, frame, b)};
+      return {frame, with_delta(*stored_a, frame, a), with_delta(*stored_b, frame, b), box_a,
+              box_b};
     }
   }
   const Frame frame = frame_around(joint, middle_of(joint));
-  return {frame, store_in(frame, a), store_in(frame, b)};
+  return {frame, store_in(frame, a), store_in(frame, b), box_a, box_b};
 }
 
 FramedMesh frame_mesh(const Mesh& mesh) {

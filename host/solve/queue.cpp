@@ -28,11 +28,11 @@ bool is_like(const StreamPair& x, const StreamPair& y) {
 
 }  // namespace
 
-bool PairQueue::put(StreamPair pair) {
+bool PairQueue::put(WaitingPair pair) {
   std::unique_lock lock(mutex_);
   room_.wait(lock, [&] { return is_closed_ || waiting_.size() < most_; });
   if (is_closed_) return false;
-  waiting_.push_back({std::move(pair), 0});
+  waiting_.push_back(std::move(pair));
   work_.notify_one();
   return true;
 }

@@ -4,8 +4,10 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <vector>
 
+#include "vkhausdorff/frame.h"
 #include "vkhausdorff/stream.h"
 
 namespace vkh {
@@ -14,6 +16,7 @@ namespace vkh {
 struct WaitingPair {
   StreamPair pair;
   unsigned tries = 0;
+  std::optional<FramedPair> framed = {};  ///< nothing: its worker checks and frames the meshes
 };
 
 class PairQueue {
@@ -21,7 +24,7 @@ class PairQueue {
   explicit PairQueue(size_t most) : most_(most) {}
 
   /// Waits while `most` pairs wait. Returns false if the queue is closed to all.
-  bool put(StreamPair pair);
+  bool put(WaitingPair pair);
   /// Puts back, without waiting, the pairs that a lost device had.
   void put_back(std::vector<WaitingPair> pairs);
 

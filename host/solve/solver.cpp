@@ -247,10 +247,11 @@ void Solver::make_ready(const SolveOptions& options) {
 namespace {
 
 // Checks each mesh once: many pairs may have one B. A prepared one was checked when it was
-// prepared.
+// prepared, and those of a framed pair before.
 void check_meshes(std::span<const PairView> pairs) {
   std::set<const Mesh*> meshes;
   for (const PairView& pair : pairs) {
+    if (pair.framed != nullptr) continue;
     meshes.insert(&pair.a);
     if (pair.prepared == nullptr || &pair.b != &pair.prepared->mesh()) meshes.insert(&pair.b);
   }
@@ -262,8 +263,14 @@ struct Framed {
   FramedPair pair;
   double displacement_b = 0;
   bool has_low_b = false;
-  Box box_a, joint;
 };
+
+Framed framed_alone(const PairView& m) {
+  Framed f{.pair = m.framed != nullptr ? *m.framed : frame_pair(m.a, m.b)};
+  f.displacement_b = f.pair.b.displacement;
+  f.has_low_b = f.pair.b.has_low;
+  return f;
+}
 
 }  // namespace
 
@@ -274,24 +281,21 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
   std::vector<Framed> framed(meshes.size());
   std::vector<const PreparedMesh::Impl*> kept(meshes.size());
   uint64_t bytes = 0;
-  for (const PairView& m : meshes) bytes += mesh_bytes(m.a) + mesh_bytes(m.b);
+  for (const PairView& m : meshes) bytes += m.framed ? 0 : mesh_bytes(m.a) + mesh_bytes(m.b);
   const auto frame = [&](size_t i) {
     const PairView& m = meshes[i];
-    Framed& f = framed[i];
-    f.box_a = bounding_box(m.a);
-    if (m.prepared != nullptr && m.prepared->serves(m.a)) {
-      kept[i] = m.prepared->impl_.get();
-      f.joint = join(f.box_a, kept[i]->box);
-      f.pair.frame = kept[i]->frame;
-      f.pair.a = store_in(kept[i]->frame, m.a);
-      f.displacement_b = kept[i]->displacement;
-      f.has_low_b = kept[i]->has_low;
+    if (m.prepared == nullptr || !m.prepared->serves(m.a)) {
+      framed[i] = framed_alone(m);
       return;
     }
-    f.joint = join(f.box_a, bounding_box(m.b));
-    f.pair = frame_pair(m.a, m.b);
-    f.displacement_b = f.pair.b.displacement;
-    f.has_low_b = f.pair.b.has_low;
+    Framed& f = framed[i];
+    kept[i] = m.prepared->impl_.get();
+    f.pair.frame = kept[i]->frame;
+    f.pair.a = store_in(kept[i]->frame, m.a);
+    f.pair.box_a = bounding_box(m.a);
+    f.pair.box_b = kept[i]->box;
+    f.displacement_b = kept[i]->displacement;
+    f.has_low_b = kept[i]->has_low;
   };
   for_each_index(meshes.size(), frame, threads_for(bytes));
   std::vector<Pair> pairs;
@@ -305,8 +309,8 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
                      .resident = kept[i] != nullptr ? &kept[i]->resident : nullptr,
                      .displacement = add_up(f.pair.a.displacement, f.displacement_b),
                      .has_low = f.pair.a.has_low || f.has_low_b,
-                     .box_a = f.box_a,
-                     .joint = f.joint,
+                     .box_a = f.pair.box_a,
+                     .joint = join(f.pair.box_a, f.pair.box_b),
                      .options = options[i],
                      .number = i});
   }
@@ -412,8 +416,10 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
   std::vector<size_t> sought;
   std::vector<PairView> back;
   std::vector<SolveOptions> of_back;
+  std::vector<FramedPair> framed;
+  framed.reserve(pairs.size());  // views refer to them
   for (size_t i = 0; i < pairs.size(); ++i) {
-    const auto& [a, b, prepared, own] = pairs[i];
+    const Mesh &a = pairs[i].a, &b = pairs[i].b;
     both[i].a_to_b = std::move(there[i]);
     const double limit = heard[i].limit.beyond;
     if (limit > 0 && both[i].a_to_b.lower > limit) {
@@ -422,6 +428,10 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
     }
     sought.push_back(i);
     back.push_back({.a = b, .b = a});
+    if (pairs[i].framed != nullptr) {
+      framed.push_back(pairs[i].framed->reversed());
+      back.back().framed = &framed.back();
+    }
     of_back.push_back(options_back(heard[i], both[i].a_to_b, elapsed_s));
   }
   // Progress has the numbers of the caller's pairs.

@@ -80,7 +80,8 @@ void Worker::solve_all(Group& group) {
     views.push_back({.a = *one.pair.a,
                      .b = *one.pair.b,
                      .prepared = prepared[i].get(),
-                     .options = &options.back()});
+                     .options = &options.back(),
+                     .framed = one.framed ? &*one.framed : nullptr});
   }
   std::vector<StreamResult> results(group.size());
   if (group[0].pair.symmetric) {

@@ -68,6 +68,10 @@ StoredPoint store_point(const Frame& frame, const glm::dvec3& point);
 struct FramedPair {
   Frame frame;
   StoragePlan a, b;
+  Box box_a, box_b;
+
+  /// What frame_pair(b, a) returns.
+  FramedPair reversed() const { return {frame, b, a, box_b, box_a}; }
 };
 /// Makes the joint box reach from 1/2 to 1. Prefers centre 0 where that keeps every coordinate in
 /// its high part, as for float32 files near the origin; otherwise the middle of the joint box.

@@ -14,6 +14,8 @@
 
 namespace vkh {
 
+struct FramedPair;
+
 /// Mesh B on the device with its BVH, for many A's. Made by a Solver, used by any Solver of the
 /// same device, outlives neither the device nor its owner's handles.
 class PreparedMesh {
@@ -40,6 +42,9 @@ struct PairView {
   const PreparedMesh* prepared = nullptr;  ///< b on the device; its answer is that of distance()
   const SolveOptions* options = nullptr;   ///< the pair's own; null: those of the call. Switches,
                                            ///< preset and memory should be the same for all
+  /// frame_pair(a, b) of frame.h, made before, on any thread, for two meshes that check_mesh() let
+  /// pass; null: the call checks and frames them.
+  const FramedPair* framed = nullptr;
 };
 
 /// Keeps pipelines and buffers of one device between runs. Calls from several threads run one after
