@@ -124,31 +124,35 @@ struct MeasuredCell {
 class CellEstimator {
  public:
   explicit CellEstimator(const SurveyedPair& pair)
-      : a_(pair.a, pair.frame), b_(pair.b, pair.frame) {}
+      : a_(pair.a, pair.frame), b_(pair.b, pair.frame), are_points_(pair.a.are_points) {}
 
   AllFaces all_faces() const { return AllFaces(b_); }
   NamedFaces named_by(const gpu::CellBounds& b) const { return NamedFaces(b, b_); }
 
+  // Measures a point once, which is all corners of its cell and its middle.
   template <class Faces>
   MeasuredCell measured(const gpu::Cell& cell, const Faces& faces) const {
     MeasuredCell found;
     found.at = corners_in_frame(cell);
-    found.middle_at = (found.at[0] + found.at[1] + found.at[2]) / 3.0;
-    for (size_t i = 0; i < found.at.size(); ++i) found.corners[i] = faces.distance(found.at[i]);
+    found.middle_at = are_points_ ? found.at[0] : (found.at[0] + found.at[1] + found.at[2]) / 3.0;
     found.middle = faces.distance(found.middle_at);
+    for (size_t i = 0; i < found.at.size(); ++i)
+      found.corners[i] = are_points_ ? found.middle : faces.distance(found.at[i]);
     return found;
   }
 
   // Whether the faces that the bounds name may not be those that are closest at the corners: they
   // are not where they are farther than any distance over the cell, or than the middle's and the
-  // way from there.
-  static bool may_miss_faces(const MeasuredCell& cell, const gpu::CellBounds& b) {
+  // way from there. A point has one lower bound at its three corners, and its bounds are narrow.
+  bool may_miss_faces(const MeasuredCell& cell, const gpu::CellBounds& b) const {
     constexpr double kRounding = 1e-5;
     for (size_t i = 0; i < cell.at.size(); ++i) {
       const double most = std::min(static_cast<double>(b.highest),
                                    cell.middle + glm::distance(cell.at[i], cell.middle_at));
       if (cell.corners[i] > most * (1 + kRounding)) return true;
-      if (has_one_lower_bound(b) && cell.corners[i] > static_cast<double>(lowest(b))) return true;
+      if (!are_points_ && has_one_lower_bound(b) &&
+          cell.corners[i] > static_cast<double>(lowest(b)))
+        return true;
     }
     return false;
   }
@@ -192,6 +196,7 @@ class CellEstimator {
   }
 
   const FramedCorners a_, b_;
+  const bool are_points_;
 };
 
 // Adds up what `add(sums, cell)` adds for each cell: in blocks, and then block by block, so that
@@ -236,7 +241,7 @@ Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Are
       const gpu::CellBounds& bounds = cells.bounds(i);
       const MeasuredCell cell = estimator.measured(cells.cell(i), estimator.named_by(bounds));
       of_cell_[i] = CellEstimator::of(cell, bounds);
-      if (CellEstimator::may_miss_faces(cell, bounds)) coarse[block].push_back(i);
+      if (estimator.may_miss_faces(cell, bounds)) coarse[block].push_back(i);
     }
   });
   const auto has_some = [](const std::vector<size_t>& block) { return !block.empty(); };

@@ -325,6 +325,35 @@ TEST_CASE("a cell with more faces about it than a device examines has true estim
   }
 }
 
+TEST_CASE("the estimate of a point is its distance, near a surface and far from it") {
+  const Mesh b = height_field(48, 1);
+  Random random(11);
+  std::vector<glm::dvec3> points;
+  for (size_t i = 0; i < 400; ++i) {
+    const double height = std::exp2(random.range(-20, 1));
+    points.emplace_back(random.range(-1, 1), random.range(-1, 1), random.range(-height, height));
+  }
+  for (size_t i = 0; i < 50; ++i) points.emplace_back(b.vertices[i * 7]);
+  const Mesh a = make_points("points", points);
+  SurveyOptions options = statistics_alone();
+  options.map.emplace();
+  const SurveyResult r = survey_of(a, b, options);
+  REQUIRE(r.map);
+  REQUIRE(r.map->cells.size() == points.size());
+  const ClosestTree tree(b.vertices, b.faces);
+  double sum = 0;
+  for (const MapCell& cell : r.map->cells) {
+    const double distance = distance_to(tree, points[cell.face]);
+    sum += distance;
+    for (const float estimate : cell.estimate)
+      CHECK(static_cast<double>(estimate) * r.map->unit ==
+            doctest::Approx(distance).epsilon(1e-6).scale(1e-3));
+  }
+  REQUIRE(r.statistics);
+  CHECK(*r.statistics->mean.estimate ==
+        doctest::Approx(sum / static_cast<double>(points.size())).epsilon(1e-5));
+}
+
 TEST_CASE("a map has sides where they cost little") {
   const Mesh a = icosphere(1.2, 2);
   const auto sides_against = [&](const Mesh& b, SurveyOptions options) {
