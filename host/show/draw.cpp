@@ -42,7 +42,7 @@ class Drawing {
         views_(picture, options, unit_) {
     if (picture.map == nullptr) return;
     map_scale_.emplace(picture, options);
-    counts_ = counts_of(*picture.map, *map_scale_);
+    counts_ = counts_of(*picture.map, *map_scale_, picture.shares);
     places_ = worst_places(picture);
   }
 

@@ -48,8 +48,9 @@ struct Picture {
   const CellMap* map = nullptr;
   const Statistics* statistics = nullptr;  ///< figures for a picture by cells; null: none
   std::optional<SidedLimits> sided = {};   ///< limits that differ by side, of a picture by cells
-  std::optional<MapBar> bar = {};          ///< the map's; none: limits, map and options decide
-  std::string unfinished = {};             ///< why the survey was cut short; empty: it was not
+  /// The survey's shares and bar; null: limits, map and options decide the bar.
+  const MapShares* shares = nullptr;
+  std::string unfinished = {};  ///< why the survey was cut short; empty: it was not
 };
 
 /// The view of the mesh.

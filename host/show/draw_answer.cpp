@@ -49,7 +49,7 @@ const char* unfinished_text(SurveyEnd end) {
 void add_map(const Side& side, const Answer& answer, Picture& picture) {
   if (!side.survey.map || side.survey.map->cells.empty()) return;
   picture.map = &*side.survey.map;
-  if (side.survey.shares) picture.bar = side.survey.shares->bar;
+  if (side.survey.shares) picture.shares = &*side.survey.shares;
   if (side.survey.statistics) picture.statistics = &*side.survey.statistics;
   picture.unfinished = unfinished_text(side.survey.ended);
   if (answer.max && answer.max->sides) picture.sided = answer.max->sides->limits;

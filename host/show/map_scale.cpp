@@ -31,7 +31,8 @@ constexpr std::array<Rgb, 2> kUnderBeyond{{{8, 28, 96}, {28, 84, 190}}};
 }  // namespace
 
 MapScale::MapScale(const Picture& picture, const PictureOptions& options)
-    : map_(*picture.map), bar_(picture.bar ? *picture.bar : bar_of(picture, options)) {
+    : map_(*picture.map),
+      bar_(picture.shares != nullptr ? picture.shares->bar : bar_of(picture, options)) {
   set_palette(options);
 }
 
@@ -134,8 +135,8 @@ FillFaces cells_for(const Picture& picture, const MapScale& scale, const Camera&
   return filled_by(CellWriter(picture, scale, camera));
 }
 
-MapCounts counts_of(const CellMap& map, const MapScale& scale) {
-  MapCounts counts{shares_of(map, scale.bar()), {}};
+MapCounts counts_of(const CellMap& map, const MapScale& scale, const MapShares* known) {
+  MapCounts counts{known != nullptr ? *known : shares_of(map, scale.bar()), {}};
   for (const MapCell& cell : map.cells) {
     const double share = scale.share_of(scale.distance_of(cell));
     if (scale.is_left_out(cell) || scale.is_without_side(cell) || share < 0 || share > 1) continue;

@@ -61,6 +61,7 @@ struct MapCounts : MapShares {
   static constexpr size_t kBins = 36;
   std::array<double, kBins> bins{};
 };
-MapCounts counts_of(const CellMap& map, const MapScale& scale);
+/// `known`: the map's shares by the scale's bar, where the survey has added them up.
+MapCounts counts_of(const CellMap& map, const MapScale& scale, const MapShares* known = nullptr);
 
 }  // namespace vkh::drawing

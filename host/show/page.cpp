@@ -53,7 +53,7 @@ struct PageSide {
       drawn.map =
           &bounds.emplace(map_of_bounds(drawn.mesh, drawn.field, bar_of(side, top_of(drawn))));
     scale.emplace(drawn, look);
-    counts = counts_of(*drawn.map, *scale);
+    counts = counts_of(*drawn.map, *scale, drawn.shares);
   }
   PageSide(const PageSide&) = delete;
   PageSide& operator=(const PageSide&) = delete;

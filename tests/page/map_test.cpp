@@ -403,6 +403,20 @@ TEST_CASE("what is left out is grey, is counted, and has no place") {
   CHECK(worst_places(drawn.picture).front().point.x == 8);
 }
 
+TEST_CASE("shares that the survey has added up are not added up again") {
+  Drawn drawn([](const glm::dvec3& p) { return p.x > 4 ? 3.0 : 0.2; });
+  MapShares known = shares_of(drawn.map, {.low = 0, .high = 2});
+  CHECK(known.above > 0.4);
+  known.above = 0.125;
+  drawn.picture.shares = &known;
+  const MapScale scale(drawn.picture, drawn.options);
+  CHECK(scale.high() == 2);
+  const MapCounts counts = counts_of(drawn.map, scale, drawn.picture.shares);
+  CHECK(counts.above == 0.125);
+  CHECK(counts.bins[3] > 0.4);  // 0.2 of 2 is in the fourth of 36
+  CHECK(counts_of(drawn.map, scale).above > 0.4);
+}
+
 TEST_CASE("shares are printed for people") {
   CHECK(percent_text(0) == "0 %");
   CHECK(percent_text(1e-6) == "under 0.01 %");
