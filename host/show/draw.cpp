@@ -128,6 +128,7 @@ std::string Drawing::map_colours_text() const {
       (map_scale_->is_signed() ? ", off by at most 5 % of the bar, 10 % about nought,"
                                : ", off by at most 5 % of the bar,") +
       " where it is not hatched.";
+  if (!map_scale_->is_signed()) text += " Over and under " + other + " are not told apart.";
   if (picture_.mesh.are_points) text += " A disc is a point.";
   if (!places_.empty() && options_.view.kind != View::Kind::kSix)
     text += " A grey number is hidden in this view.";
@@ -240,7 +241,7 @@ void Drawing::draw_header() {
   std::string text = std::string("the largest deviation of ") +
                      (picture_.back ? "B from A" : "A from B") + " is in " +
                      with_unit(picture_, "[" + h.lower + ", " + h.upper + "]");
-  if (picture_.limit) text += "; the limit is " + limit_caption(picture_);
+  if (picture_.limit) text += "; " + limit_clause(picture_);
   write(canvas_, {at, 98 * u}, shortened(text, 20 * u, x + width - at),
         {20 * u, kInk, Align::kLeft});
 }
@@ -407,13 +408,13 @@ double covered(const Layer& layer, const Area& views, const Area& box) {
   return sum / static_cast<double>(std::max<size_t>(count, 1)) + (sum > 0 ? 1 : 0);
 }
 
-/// Whether two labels hide each other, or the line of one passes through the other.
+/// Whether two labels hide each other, or the line of one passes within `clear` of the other.
 bool is_in_the_way(const Area& one, const glm::dvec2& tip, const Area& two,
-                   const glm::dvec2& other_tip) {
+                   const glm::dvec2& other_tip, double clear) {
   const bool is_over =
       one.x < two.right() && two.x < one.right() && one.y < two.bottom() && two.y < one.bottom();
-  return is_over || meets(one, other_tip, nearest_in(two, other_tip)) ||
-         meets(two, tip, nearest_in(one, tip));
+  return is_over || meets(one.inner(-clear), other_tip, nearest_in(two, other_tip)) ||
+         meets(two.inner(-clear), tip, nearest_in(one, tip));
 }
 
 /// Places a label near its tip, beside the mesh if there is room, and clear of others and their
@@ -436,7 +437,7 @@ Area Drawing::place_for_label(const Panel& panel, const Layer& layer, const Labe
       double cost = covered(layer, views, box) + far / 500;
       if (box.inner(-clear).has(tip)) cost += 9;
       if (std::any_of(taken.begin(), taken.end(), [&](const Placed& other) {
-            return is_in_the_way(other.box, other.tip, box, label.tip);
+            return is_in_the_way(other.box, other.tip, box, label.tip, 6 * unit_);
           }))
         cost += 9;
       if (cost >= least) continue;

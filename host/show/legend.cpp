@@ -202,9 +202,15 @@ std::string limit_text(const Picture& picture) {
   return with_unit(picture, length_in_words(*picture.limit));
 }
 
-std::string limit_caption(const Picture& picture) {
-  if (picture.limit_as.empty()) return limit_text(picture);
-  return picture.limit_as + ", " + with_unit(picture, length_in_words(*picture.limit));
+std::string limit_clause(const Picture& picture) {
+  const auto length = [&](const Limit& limit) {
+    return with_unit(picture, length_in_words(limit));
+  };
+  if (picture.sided)
+    return "the limits are +" + length(picture.sided->over) + " over and \u2212" +
+           length(picture.sided->under) + " under " + (picture.back ? "A" : "B");
+  const bool is_share = !picture.limit_as.empty();
+  return "the limit is " + limit_text(picture) + (is_share ? ", " + length(*picture.limit) : "");
 }
 
 void draw_bar(const Sheet& sheet, const Area& area) {

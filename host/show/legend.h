@@ -32,8 +32,9 @@ PrintedInterval printed(const Picture& picture);
 std::string with_unit(const Picture& picture, const std::string& number);
 /// The limit as the user asked for it: a length, and no bound.
 std::string limit_text(const Picture& picture);
-/// The same, and for a share of a diagonal its length.
-std::string limit_caption(const Picture& picture);
+/// "the limit is 0.1 mm", for a share of a diagonal with its length, too; or "the limits are
+/// +0.2 mm over and −0.1 mm under B".
+std::string limit_clause(const Picture& picture);
 /// Draws a bar with ticks, and the interval on it.
 void draw_bar(const Sheet& sheet, const Area& area);
 /// Draws the three verdicts, and how many faces have each.

@@ -20,10 +20,11 @@ const char* of_what(const Picture& picture) {
   return picture.mesh.are_points ? " of the points" : " of the area";
 }
 
-// A survey that was not cut short leaves parts that are smaller than a pixel.
+// A survey that was not cut short leaves cells that are smaller than a pixel. Many of them side by
+// side are seen.
 std::string unresolved_text(const Picture& picture, double share) {
   const bool is_small = picture.unfinished.empty() && !picture.mesh.are_points;
-  return (is_small ? "not resolved, smaller than a pixel: " : "not resolved: ") +
+  return (is_small ? "not resolved, in cells under a pixel: " : "not resolved: ") +
          percent_text(share);
 }
 
@@ -189,7 +190,7 @@ std::vector<std::string> figures_of(const Sheet& sheet, const MapLegend& legend)
   std::vector<std::string> figures;
   if (legend.scale.limit())
     figures.push_back(percent_text(legend.counts.within) + of_what(sheet.picture) +
-                      " within the limit");
+                      (sheet.picture.sided ? " within the limits" : " within the limit"));
   const Statistics* s = sheet.picture.statistics;
   const bool has_mean = s != nullptr && s->mean.estimate;
   const std::string of_rest = legend.counts.left_out > 0 ? "of the rest: mean " : "mean ";
@@ -219,9 +220,10 @@ void draw_histogram(const Sheet& sheet, const MapLegend& legend, const Area& are
           {fitted_size(text, size, area.width), kInk, Align::kLeft});
   }
   if (plot.height < 20 * u) return;
-  write(sheet.canvas, {area.x, area.y + size},
-        std::string("share") + of_what(sheet.picture) + " by distance",
-        {size, kGrey, Align::kLeft});
+  const std::string title = std::string("share") + of_what(sheet.picture) + " by distance" +
+                            (legend.counts.no_side > 0 ? ", where a side is known" : "");
+  write(sheet.canvas, {area.x, area.y + size}, title,
+        {fitted_size(title, size, area.width), kGrey, Align::kLeft});
   const auto& bins = legend.counts.bins;
   const double most = std::max({*std::max_element(bins.begin(), bins.end()), legend.counts.above,
                                 legend.counts.below, 1e-9});

@@ -232,7 +232,7 @@ class See(unittest.TestCase):
             self.assertEqual(answer["directions"][0]["map"]["signed"], "cube.obj" in words)
 
     def check_legend(self, rows, shares):
-        names = {"over": "above", "below": "below", "no side known": "no_side", "not resolved": "unresolved", "not resolved, smaller than a pixel": "unresolved"}
+        names = {"over": "above", "below": "below", "no side known": "no_side", "not resolved": "unresolved", "not resolved, in cells under a pixel": "unresolved"}
         rows = [row for row in rows if row != "beyond the tolerance"]
         for row in rows:
             name, share = re.fullmatch(r"(.+?)(?: [\u22120-9.e-]+ mm)?: (.+) %(?: of the area)?", row).groups()

@@ -417,6 +417,17 @@ TEST_CASE("shares that the survey has added up are not added up again") {
   CHECK(counts_of(drawn.map, scale).above > 0.4);
 }
 
+TEST_CASE("a caption names both limits where they differ by side") {
+  Drawn drawn([](const glm::dvec3&) { return 0.3; });
+  drawn.picture.limit = Limit{0.4, 0.4};
+  CHECK(limit_clause(drawn.picture) == "the limit is 0.4");
+  drawn.picture.sided = SidedLimits{{0.25, 0.25}, {0.4, 0.4}};
+  drawn.picture.unit = "mm";
+  CHECK(limit_clause(drawn.picture) == "the limits are +0.25 mm over and \u22120.4 mm under B");
+  drawn.picture.back = true;
+  CHECK(limit_clause(drawn.picture) == "the limits are +0.25 mm over and \u22120.4 mm under A");
+}
+
 TEST_CASE("shares are printed for people") {
   CHECK(percent_text(0) == "0 %");
   CHECK(percent_text(1e-6) == "under 0.01 %");
