@@ -2,12 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <new>
+#ifdef VKH_HAS_ZLIB
+#include <zlib.h>
+#endif
 
 #include "vkhausdorff/error.h"
 
 #ifdef VKH_HAS_STB
+#ifdef VKH_HAS_ZLIB
+namespace {
+
+// Deflates a PNG's rows, as stb asks for it: null if there is no memory. Level 3 takes a third of
+// the time of stb's own, for fewer bytes. stb frees them by free().
+unsigned char* deflated_rows(unsigned char* rows, int size, int* packed_size, int) {
+  constexpr int kLevel = 3;
+  uLongf packed = compressBound(static_cast<uLong>(size));
+  auto* bytes = static_cast<unsigned char*>(std::malloc(packed));
+  if (bytes == nullptr) return nullptr;
+  if (compress2(bytes, &packed, rows, static_cast<uLong>(size), kLevel) != Z_OK) {
+    std::free(bytes);
+    return nullptr;
+  }
+  *packed_size = static_cast<int>(packed);
+  return bytes;
+}
+
+}  // namespace
+#define STBIW_ZLIB_COMPRESS deflated_rows
+#endif
 #define STB_TRUETYPE_IMPLEMENTATION
 #define STBTT_STATIC
 #include <stb/stb_truetype.h>

@@ -355,13 +355,17 @@ Layer Raster::averaged(VkExtent2D pixels) const {
   const size_t row = size_t{4} * pixels.width * samples_;
   const uint32_t in_all = samples_ * samples_;
   for_each_index(pixels.height, [&](size_t y) {
+    std::vector<uint16_t> sums(row);  // of the rows' samples one below the other
+    for (uint32_t j = 0; j < samples_; ++j) {
+      const uint8_t* line = from + (y * samples_ + j) * row;
+      for (size_t i = 0; i < row; ++i) sums[i] = static_cast<uint16_t>(sums[i] + line[i]);
+    }
+    uint8_t* to = &layer.rgba[y * 4 * pixels.width];
     for (size_t at = 0; at < size_t{4} * pixels.width; ++at) {
-      const uint8_t* first = from + y * samples_ * row + at / 4 * samples_ * 4 + at % 4;
+      const uint16_t* first = &sums[at / 4 * samples_ * 4 + at % 4];
       uint32_t sum = in_all / 2;
-      for (uint32_t j = 0; j < samples_; ++j) {
-        for (uint32_t i = 0; i < samples_; ++i) sum += first[j * row + size_t{4} * i];
-      }
-      layer.rgba[y * 4 * pixels.width + at] = static_cast<uint8_t>(sum / in_all);
+      for (uint32_t i = 0; i < samples_; ++i) sum += first[size_t{4} * i];
+      to[at] = static_cast<uint8_t>(sum / in_all);
     }
   });
   return layer;
