@@ -84,10 +84,11 @@ class MapGrid {
     step_ = std::max(step_, kSpacings * drawing::spacing_of(mesh));
   }
 
-  /// Adds the corners of a cell that are at least so far.
+  /// Adds the corners of a cell that are at least so far; a point's are one.
   void add(const Mesh& mesh, const CellMap& map, const MapCell& cell, float least) {
     std::optional<size_t> last;
-    for (size_t corner = 0; corner < cell.estimate.size(); ++corner) {
+    const size_t corners = mesh.are_points ? 1 : cell.estimate.size();
+    for (size_t corner = 0; corner < corners; ++corner) {
       if (cell.estimate[corner] < least) continue;
       const size_t box = box_with(place_at(mesh, map, cell, corner));
       if (last && *last != box) link(*last, box);
