@@ -203,6 +203,32 @@ TEST_CASE("locked vertices stay, and the rest is collapsed") {
   CHECK(faces.size() < collapser.faces().size() / 2);
 }
 
+TEST_CASE("blocks have each face once, and know the vertices between them") {
+  const Mesh a = icosphere(1, 3);
+  const Blocks blocks = split(a.faces, a.vertices, {DVec3(-1, -1, -1), 0.7});
+  CHECK(blocks.size() > 8);
+  std::vector<size_t> users(a.vertices.size());
+  std::set<std::tuple<uint32_t, uint32_t, uint32_t>> seen;
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    std::set<uint32_t> own;
+    for (const UVec3& face : blocks[i]) {
+      CHECK(seen.insert({face.x, face.y, face.z}).second);
+      own.insert({face.x, face.y, face.z});
+    }
+    for (const uint32_t v : own) ++users[v];
+  }
+  CHECK(seen.size() == a.faces.size());
+  for (size_t v = 0; v < users.size(); ++v) CHECK((users[v] > 1) == (blocks.is_shared[v] != 0));
+}
+
+TEST_CASE("a small error goes by blocks: the same faces on any number of threads, and fewer") {
+  const Collapser collapser(torus(2, 0.5, 400, 200), false, false);
+  const CollapseTarget target{.error = 8e-4}, whole{.error = 8e-4, .by_blocks = false};
+  const Faces faces = collapser.collapse(collapser.faces(), target, {}, ThreadPool(1, {}, {}));
+  CHECK(faces == collapser.collapse(collapser.faces(), target, {}, ThreadPool(7, {}, {})));
+  CHECK(faces.size() < collapser.collapse(collapser.faces(), whole).size());
+}
+
 TEST_CASE("vertices at one position are one vertex") {
   Mesh apart;  // two triangles that share an edge, but no vertex
   apart.name = "apart";
