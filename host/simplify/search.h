@@ -19,7 +19,8 @@ class Search {
   /// Tries A itself, which passes unless its coordinates were rounded.
   void try_whole();
   /// Tries sixteen errors in geometric steps, the largest first: a candidate of few faces costs
-  /// little. Then narrows the bracket between the first that passes and the one before it.
+  /// little. Then narrows the bracket between the first that passes and the one before it. The
+  /// candidates are made before, on several threads, but for those of the smallest errors.
   void scan_errors();
   /// Simplifies the best candidate further but for the patches that this breaks: these, and the
   /// faces around them, are locked, and the rest is simplified again.
@@ -34,6 +35,9 @@ class Search {
   enum class Outcome { kPassed, kFailed, kUseless };
 
   Outcome attempt(Faces faces);
+  bool is_large() const;
+  void make_candidates();
+  Faces candidate(size_t step);
   void bisect_error(double passes, double fails);
   bool repair_by(double error);
   bool add_locks(const Mesh& broken, const PreparedMesh& best, double share,
@@ -45,10 +49,11 @@ class Search {
   Judge& judge_;
   const Collapser& collapser_;
   const SimplifyOptions& options_;
-  Faces best_;             ///< passed; none: nothing did
-  Faces failed_;           ///< the last that failed
-  Deviation why_;          ///< of the last that failed
-  double best_error_ = 0;  ///< the target at which the best was found by error
+  std::vector<Faces> candidates_;  ///< of the larger errors, the largest first
+  Faces best_;                     ///< passed; none: nothing did
+  Faces failed_;                   ///< the last that failed
+  Deviation why_;                  ///< of the last that failed
+  double best_error_ = 0;          ///< the target at which the best was found by error
   double failed_error_ = 0;
   size_t tried_ = 0;
 };

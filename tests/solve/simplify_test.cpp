@@ -229,6 +229,19 @@ TEST_CASE("a small error goes by blocks: the same faces on any number of threads
   CHECK(faces.size() < collapser.collapse(collapser.faces(), whole).size());
 }
 
+TEST_CASE("the first candidate of a large mesh is the coarsest") {
+  const Mesh a = square_patch(260, 0);  // more faces than are collapsed from A each time
+  SimplifyOptions stopped = within(0.001);
+  std::vector<uint64_t> faces;
+  stopped.progress = [&faces](const SimplifyProgress& p) {
+    faces.push_back(p.faces_of_next);
+    return false;
+  };
+  const Simplified s = simplify(solver(), a, stopped);
+  CHECK_FALSE(s.found);
+  CHECK(faces == std::vector<uint64_t>{2});
+}
+
 TEST_CASE("vertices at one position are one vertex") {
   Mesh apart;  // two triangles that share an edge, but no vertex
   apart.name = "apart";
