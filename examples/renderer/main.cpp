@@ -1,4 +1,5 @@
-// vkh_renderer: draws frames off screen and writes them as PNG, with one line of CSV each.
+// vkh_renderer: draws frames off screen and writes them as PNG, with one line of CSV each: of a
+// mesh that deforms, or with --chain of a file's, by its levels of proven errors.
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -8,7 +9,7 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb/stb_image_write.h>
 
-#include "examples/renderer/renderer.h"
+#include "examples/renderer/chain.h"
 
 namespace {
 
@@ -17,6 +18,7 @@ struct Options {
   uint32_t frames = 60;
   float nearest = 2.6f, farthest = 14;  // the camera's distances
   std::string folder = ".";
+  std::string chain;  // what simplify --levels --json=FILE wrote; empty: the mesh that deforms
 };
 
 Options parse(int argc, char** argv) {
@@ -41,6 +43,8 @@ Options parse(int argc, char** argv) {
     } else if (name == "--camera") {
       o.nearest = std::stof(text());
       o.farthest = std::stof(text());
+    } else if (name == "--chain") {
+      o.chain = text();
     } else if (name == "--out") {
       o.folder = text();
     } else if (name == "--validation") {
@@ -48,7 +52,7 @@ Options parse(int argc, char** argv) {
     } else {
       throw std::runtime_error(
           "usage: vkh_renderer [--frames N] [--size W H] [--cells U V] [--waves N] "
-          "[--camera NEAREST FARTHEST] [--out FOLDER] [--validation]");
+          "[--camera NEAREST FARTHEST] [--chain LOD.json] [--out FOLDER] [--validation]");
     }
   }
   if (o.frames == 0 || o.renderer.width < 320 || o.renderer.height < 240 ||
@@ -75,21 +79,42 @@ void print(uint32_t number, const example::RenderedFrame& f) {
   std::printf("\n");
 }
 
+float camera_of(const Options& o, uint32_t frame) {
+  const float part =
+      o.frames == 1 ? 0 : static_cast<float>(frame) / static_cast<float>(o.frames - 1);
+  return o.nearest + part * (o.farthest - o.nearest);
+}
+
+uint32_t draw_deforming(const Options& o) {
+  example::Renderer renderer(o.renderer);
+  std::puts("frame,drawn,pixel,lower1,upper1,lower2,upper2,lower3,upper3");
+  for (uint32_t i = 0; i < o.frames; ++i) {
+    const example::RenderedFrame f =
+        renderer.frame(i, 0.1f * static_cast<float>(i), camera_of(o, i));
+    write_png(o, i, f.rgba);
+    print(i, f);
+  }
+  return renderer.gpu().validation_messages();
+}
+
+uint32_t draw_chain(const Options& o) {
+  example::ChainRenderer renderer(o.renderer, example::read_chain(o.chain));
+  std::puts("frame,drawn,faces,error,pixel");
+  for (uint32_t i = 0; i < o.frames; ++i) {
+    const example::ChainFrame f = renderer.frame(0.05f * static_cast<float>(i), camera_of(o, i));
+    write_png(o, i, f.rgba);
+    std::printf("%u,%u,%u,%.9g,%.9g\n", i, f.drawn, f.faces, static_cast<double>(f.error),
+                static_cast<double>(f.pixel));
+  }
+  return renderer.gpu().validation_messages();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
   const Options o = parse(argc, argv);
   std::filesystem::create_directories(o.folder);
-  example::Renderer renderer(o.renderer);
-  std::puts("frame,drawn,pixel,lower1,upper1,lower2,upper2,lower3,upper3");
-  for (uint32_t i = 0; i < o.frames; ++i) {
-    const float part = o.frames == 1 ? 0 : static_cast<float>(i) / static_cast<float>(o.frames - 1);
-    const float camera = o.nearest + part * (o.farthest - o.nearest);
-    const example::RenderedFrame f = renderer.frame(i, 0.1f * static_cast<float>(i), camera);
-    write_png(o, i, f.rgba);
-    print(i, f);
-  }
-  return renderer.gpu().validation_messages() == 0 ? 0 : 1;
+  return (o.chain.empty() ? draw_deforming(o) : draw_chain(o)) == 0 ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "vkh_renderer: %s\n", error.what());
   return 1;

@@ -1,12 +1,9 @@
 #include "examples/renderer/renderer.h"
 
-#include <cmath>
 #include <cstring>
-#define GLM_FORCE_DEPTH_ZERO_TO_ONE
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/mat4x4.hpp>
 
 #include "examples/renderer/font.h"
+#include "examples/renderer/view.h"
 
 namespace example {
 namespace {
@@ -19,8 +16,7 @@ namespace {
 
 constexpr VkDeviceSize kReportStride = (sizeof(VkhReport) + 255) / 256 * 256;
 constexpr uint32_t kReportWords = kReportStride / 4;
-constexpr float kFieldOfView = 0.8f;  // radians, vertical
-constexpr float kExtent = 1.75f;      // no part of the mesh is farther from the origin
+constexpr float kExtent = 1.75f;  // no part of the mesh is farther from the origin
 
 // The same values as in frame.glsl.
 struct Choice {
@@ -29,16 +25,10 @@ struct Choice {
   float fill[kLevels - 1];
   uint32_t text[kRows * kColumns];
 };
-enum Mode : uint32_t { kPlain = 0, kEdges = 1, kDistance = 2 };
 
 struct ChoosePush {
   uint32_t report_words, frame;
   float camera, pixel;
-};
-struct MeshPush {
-  glm::mat4 view_projection;
-  glm::vec3 eye;
-  uint32_t mode, report_words;
 };
 struct CaptionPush {
   uint32_t x, y, scale;
@@ -83,8 +73,7 @@ VkRect2D Renderer::large_part() const {
 }
 
 RenderedFrame Renderer::frame(uint32_t number, float time, float camera) {
-  const auto rows = static_cast<float>(large_part().extent.height);
-  const float pixel = 2 * std::tan(kFieldOfView / 2) * (camera - kExtent) / rows;
+  const float pixel = pixel_at(camera - kExtent, large_part().extent.height);
   gpu_.run([&](VkCommandBuffer commands) {
     scene_.deform(commands, time);
     certify(commands, number, pixel);
@@ -155,17 +144,13 @@ void Renderer::draw(VkCommandBuffer commands, float time, float camera) {
 
 void Renderer::draw_mesh(VkCommandBuffer commands, VkRect2D part, float camera, float angle,
                          uint32_t mode) {
-  const glm::vec3 eye = camera * glm::vec3(0.8f * std::cos(angle), 0.8f * std::sin(angle), 0.6f);
-  const float aspect =
-      static_cast<float>(part.extent.width) / static_cast<float>(part.extent.height);
-  glm::mat4 projection = glm::perspective(kFieldOfView, aspect, 0.2f, camera + 2 * kExtent);
-  projection[1][1] = -projection[1][1];  // Vulkan's y points down
-  const glm::mat4 view = glm::lookAt(eye, glm::vec3(0), glm::vec3(0, 0, 1));
+  MeshPush push = look(part.extent, camera, kExtent, angle, mode);
+  push.report_words = kReportWords;
   target_.view(commands, part);
   gpu_.bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
             {scene_.vertices().handle, levels_.handle, choice_.handle, scene_.index_buffer().handle,
              reports_.handle, font_.handle},
-            bytes_of(MeshPush{projection * view, eye, mode, kReportWords}));
+            bytes_of(push));
   if (mode == kDistance) {
     vkCmdDraw(commands, 3 * scene_.levels()[0].face_count(), 1, 0, 0);
   } else {

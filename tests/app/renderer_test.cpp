@@ -1,13 +1,16 @@
 // The renderer in frames: its intervals against the CPU reference, its choice of level, its
-// pictures, its caption as read from them.
+// pictures, its caption as read from them; and a chain of simplify's.
 #include "examples/renderer/renderer.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -15,7 +18,9 @@
 #define STBI_NO_THREAD_LOCALS
 #include <stb/stb_image.h>
 
+#include "examples/renderer/chain.h"
 #include "examples/renderer/font.h"
+#include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/program.h"
 
@@ -138,7 +143,73 @@ Picture load(const std::string& path) {
   return p;
 }
 
+void write_obj(const std::string& path, const Mesh& mesh) {
+  std::ofstream out(path);
+  out.precision(17);
+  for (const DVec3& v : mesh.vertices) out << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  for (const UVec3& f : mesh.faces)
+    out << "f " << f.x + 1 << ' ' << f.y + 1 << ' ' << f.z + 1 << '\n';
+}
+
+constexpr double kTorusRadius = 2.5;  // of torus(2, 0.5, ..), from its axis
+
+/// Writes a torus, two coarser ones and their distances as simplify's JSON has them.
+std::string write_chain(std::vector<double>& errors) {
+  const Mesh meshes[] = {torus(2, 0.5, 96, 32), torus(2, 0.5, 48, 16), torus(2, 0.5, 24, 8)};
+  std::ostringstream files;
+  files.precision(17);
+  for (int k = 0; k < 3; ++k) {
+    const std::string name = "level" + std::to_string(k) + ".obj";
+    write_obj(folder() / name, meshes[k]);
+    if (k == 0) continue;
+    errors.push_back(std::max(reference_hausdorff(meshes[0], meshes[k], 1e-4).upper,
+                              reference_hausdorff(meshes[k], meshes[0], 1e-4).upper));
+    files << (k == 1 ? "" : ",") << R"({"path":")" << name << R"(","upper":)" << errors.back()
+          << '}';
+  }
+  const std::string path = folder() / "chain.json";
+  std::ofstream(path) << R"({"input":{"path":"level0.obj"},"files":[)" << files.str() << "]}";
+  return path;
+}
+
 }  // namespace
+
+TEST_CASE("a chain's frames draw the coarsest level whose proven error is under a pixel") {
+  std::vector<double> errors;
+  example::ChainRenderer r({.width = kWidth, .height = kHeight, .validation = validation()},
+                           example::read_chain(write_chain(errors)));
+  std::set<uint32_t> drawn;
+  size_t covered = kWidth * kHeight;
+  for (const float camera : {1.6f, 3.0f, 12.0f, 30.0f}) {
+    CAPTURE(camera);
+    const example::ChainFrame f = r.frame(0.5f, camera);
+    // A pixel in the files' units: the torus has half of a diagonal of so much.
+    const double radius = std::hypot(kTorusRadius, kTorusRadius, 0.5);
+    const double pixel = static_cast<double>(f.pixel) * radius;
+    uint32_t coarsest = 0;
+    for (uint32_t k = 1; k <= errors.size(); ++k)
+      if (errors[k - 1] < pixel) coarsest = k;
+    CHECK(f.drawn == coarsest);
+    CHECK(f.faces == 2 * (96u >> coarsest) * (32u >> coarsest));
+    drawn.insert(f.drawn);
+    size_t seen = 0;
+    for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i)
+      seen += std::memcmp(f.rgba + 4 * i, f.rgba, 4) != 0;
+    CHECK(seen > 20);
+    CHECK(seen < covered);  // the camera moves away
+    covered = seen;
+  }
+  CHECK(drawn.size() == 3);
+  CHECK(r.gpu().validation_messages() == 0);
+}
+
+TEST_CASE("a chain that is none is refused by name") {
+  const std::string path = folder() / "none.json";
+  std::ofstream(path) << "{}";
+  const Outcome outcome = run({"--chain", path});
+  CHECK(outcome.exit_code == 1);
+  CHECK(outcome.err.find("simplify --levels") != std::string::npos);
+}
 
 TEST_CASE("frames: intervals against the reference, the level, the picture and its caption") {
   Renderer& r = renderer();
