@@ -14,10 +14,6 @@
 namespace vkh {
 namespace {
 
-bool has_equal_corners(const UVec3& face) {
-  return face.x == face.y || face.y == face.z || face.z == face.x;
-}
-
 struct Axis {
   double least = 0, middle = 0, half = 0;
 };
@@ -97,6 +93,10 @@ Patch patch_of(std::span<const UVec3> faces, std::span<const DVec3> all,
   for (unsigned i = 0; i < patch.vertices.size(); ++i)
     if (is_locked[patch.vertices[i]]) patch.corners.insert(patch.corners.end(), {i, i, i});
   return patch;
+}
+
+bool has_equal_corners(const UVec3& face) {
+  return face.x == face.y || face.y == face.z || face.z == face.x;
 }
 
 Faces faces_of(std::span<const unsigned> corners, const std::vector<uint32_t>& vertices) {

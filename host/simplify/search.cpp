@@ -46,6 +46,7 @@ bool Search::is_large() const { return collapser_.faces().size() > kLarge; }
 void Search::try_whole() { attempt(collapser_.faces()); }
 
 void Search::make_candidates() {
+  if (!goes_on()) return;
   const double limit = options_.max.within;
   candidates_.resize(kFirst + 1);
   if (is_large()) {

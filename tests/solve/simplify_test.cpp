@@ -229,6 +229,19 @@ TEST_CASE("a small error goes by blocks: the same faces on any number of threads
   CHECK(faces.size() < collapser.collapse(collapser.faces(), whole).size());
 }
 
+TEST_CASE("the result does not depend on the number of threads") {
+  const Mesh a = torus(2, 0.5, 96, 48);
+  limit_threads(1);
+  const Simplified one = simplify(solver(), a, within(0.01));
+  limit_threads(5);
+  const Simplified five = simplify(solver(), a, within(0.01));
+  limit_threads(0);
+  REQUIRE(one.found);
+  CHECK(one.mesh.vertices == five.mesh.vertices);
+  CHECK(one.mesh.faces == five.mesh.faces);
+  CHECK(one.tried == five.tried);
+}
+
 TEST_CASE("the first candidate of a large mesh is the coarsest") {
   const Mesh a = square_patch(260, 0);  // more faces than are collapsed from A each time
   SimplifyOptions stopped = within(0.001);
