@@ -91,11 +91,23 @@ std::optional<MapOptions> map_options(const Finishing& at) {
   return map;
 }
 
-// The slope of f1 in a share is 2 at most, and both its shares are enclosed.
+// The slope of f1 in a share is 2 at most, and both its shares are enclosed. Figures that are not
+// asked for have no goal.
 void ask_for_metrics(const MetricsOptions& metrics, SurveyOptions& options) {
-  options.mean_tolerance = MetricsOptions::kTolerance;
-  options.area_tolerance = MetricsOptions::kShareTolerance / 2;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const bool has_moments = metrics.asks_for({"masd", "assd", "rms", "chamfer_l1", "chamfer_l2"});
+  const bool has_shares = metrics.asks_for(
+      {"nsd", "precision", "recall", "f1", "precision_normals", "recall_normals", "f1_normals"});
+  options.mean_tolerance = has_moments ? MetricsOptions::kTolerance : kNone;
+  const bool has_f1 = metrics.asks_for({"f1"});
+  const double of_share = MetricsOptions::kShareTolerance / (has_f1 ? 2 : 1);
+  options.area_tolerance = has_shares ? of_share : kNone;
+  options.agreeing_tolerance = has_shares ? MetricsOptions::kShareTolerance / 2 : kNone;
   options.percentiles = {metrics.percentile / 100};
+  options.narrows_percentiles = metrics.asks_for({"hd_p", "hd_p_pooled"});
+  options.normals_within = metrics.normals;
+  options.cosine_tolerance =
+      metrics.asks_for({"normal_consistency"}) ? MetricsOptions::kNormalTolerance : kNone;
   options.keeps_distribution = true;
 }
 
@@ -145,9 +157,12 @@ void join_bands(Statistics& s) {
   std::vector<AreaWithin> bands;
   for (size_t i = 0; i + 1 < s.bands.size(); i += 2) {
     const AreaWithin &down = s.bands[i], &up = s.bands[i + 1];
-    bands.push_back({typed_length({down.distance, up.distance}),
-                     {down.share.lower, up.share.upper, down.share.estimate},
-                     down.jump || up.jump});
+    AreaWithin band{typed_length({down.distance, up.distance}),
+                    {down.share.lower, up.share.upper, down.share.estimate},
+                    down.jump || up.jump};
+    if (down.agreeing && up.agreeing)
+      band.agreeing = {down.agreeing->lower, up.agreeing->upper, down.agreeing->estimate};
+    bands.push_back(band);
   }
   s.bands = std::move(bands);
 }
@@ -213,8 +228,20 @@ void take_coverage(const Finishing& at, double beyond, Statistics& statistics) {
                                     {share, ""}));
 }
 
+// The second survey knows the first one's shares, and so how narrow f1 is: its own shares need not
+// be narrower than that takes. A share that is joined of two is wider by a rounding.
+void take_shares_of_a(const Finishing& at, const Side& side, SurveyOptions& options) {
+  constexpr double kOfTolerance = 0.99;
+  const bool has_f1 = at.question.metrics && at.question.metrics->asks_for({"f1"});
+  if (!side.back || !has_f1 || !at.answer.survey_a || !at.answer.survey_a->statistics) return;
+  for (const AreaWithin& band : at.answer.survey_a->statistics->bands)
+    options.other_shares.insert(options.other_shares.end(), 2, band.share);
+  options.area_tolerance = kOfTolerance * MetricsOptions::kShareTolerance;
+}
+
 SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
   SurveyOptions options = survey_options(at, side, left);
+  take_shares_of_a(at, side, options);
   options.upper = side.report.upper;
   const std::optional<double> beyond = uncovered_beyond(at, side);
   if (beyond) options.bands.insert(options.bands.end(), 2, *beyond);
@@ -229,11 +256,10 @@ SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
   return result;
 }
 
-void compute_metrics(Answer& answer) {
+void compute_metrics(const MetricsOptions& options, Answer& answer) {
   const SurveyResult &a = *answer.survey_a, &b = *answer.survey_b;
-  answer.metrics =
-      metrics_of({answer.metrics->percentile}, {answer.a_to_b, *a.statistics, *a.distribution},
-                 {*answer.b_to_a, *b.statistics, *b.distribution});
+  answer.metrics = metrics_of(options, {answer.a_to_b, *a.statistics, *a.distribution},
+                              {*answer.b_to_a, *b.statistics, *b.distribution});
 }
 
 /// Goes on with a survey until the pooled percentile is narrow, or the other mesh's cells are more
@@ -271,13 +297,13 @@ void narrow_pooled(const Finishing& at, const std::vector<Side>& sides) {
   bool goes_on = true;
   for (int turn = 0; goes_on && turn < kMostTurns && at.observer.is_to_go_on(); ++turn) {
     const Metric& pooled = at.answer.metrics->hd_p_pooled;
-    if (pooled.is_met || pooled.jump) return;
+    if (pooled.is_met || pooled.jump || !at.answer.metrics->asks_for("hd_p_pooled")) return;
     const bool back =
         b.distribution->undecided_area(pooled.value) > a.distribution->undecided_area(pooled.value);
     goes_on = go_on_for_pooled(at, sides[back ? 1 : 0], back ? b : a,
                                back ? *a.distribution : *b.distribution);
     if (!a.distribution || !b.distribution) return;
-    compute_metrics(at.answer);
+    compute_metrics(*at.question.metrics, at.answer);
   }
 }
 
@@ -286,7 +312,7 @@ void narrow_pooled(const Finishing& at, const std::vector<Side>& sides) {
 void take_metrics(const Finishing& at, const std::vector<Side>& sides) {
   SurveyResult &a = *at.answer.survey_a, &b = *at.answer.survey_b;
   if (a.distribution && b.distribution) {
-    compute_metrics(at.answer);
+    compute_metrics(*at.question.metrics, at.answer);
     narrow_pooled(at, sides);
   }
   a.distribution.reset();

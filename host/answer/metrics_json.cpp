@@ -1,4 +1,6 @@
 // Metrics as JSON, both ways.
+#include <array>
+
 #include "host/answer/json_object.h"
 #include "vkhausdorff/error.h"
 
@@ -16,12 +18,14 @@ std::string metric_json(const Metric& metric, const Json& unit) {
   return json.text();
 }
 
-std::string metrics_within_json(const MetricsWithin& at, const Json& unit) {
+std::string metrics_within_json(const MetricsWithin& at, const Json& unit, bool has_normals) {
   JsonObject json;
   json.add("distance", at.distance);
   json.add("unit", unit);
-  for (const NamedShare& share : kNamedShares)
-    json.add_text(share.name, metric_json(at.*share.figure, nullptr));
+  for (const NamedShare& share : kNamedShares) {
+    if (has_normals || !share.of_normals)
+      json.add_text(share.name, metric_json(at.*share.figure, nullptr));
+  }
   return json.text();
 }
 
@@ -54,12 +58,25 @@ Metric metric_from(const Json& json) {
   return metric;
 }
 
-MetricsWithin metrics_within_from(const Json& json) {
+MetricsWithin metrics_within_from(const Json& json, bool has_normals) {
   MetricsWithin at;
   at.distance = metric_number(json, "distance");
-  for (const NamedShare& share : kNamedShares)
-    at.*share.figure = metric_from(metric_member(json, share.name));
+  for (const NamedShare& share : kNamedShares) {
+    if (has_normals || !share.of_normals)
+      at.*share.figure = metric_from(metric_member(json, share.name));
+  }
   return at;
+}
+
+std::vector<std::string> figures_from(const Json& json) {
+  std::vector<std::string> figures;
+  if (!json.contains("figures")) return figures;
+  if (!json["figures"].is_array()) throw InputError("metrics: figures is no array");
+  for (const Json& figure : json["figures"]) {
+    if (!figure.is_string()) throw InputError("metrics: a figure's name is no text");
+    figures.push_back(figure.get<std::string>());
+  }
+  return figures;
 }
 
 }  // namespace
@@ -71,12 +88,17 @@ void add_metrics(JsonObject& json, const Answer& answer) {
   JsonObject metrics;
   metrics.add("percentile", m.percentile);
   metrics.add("met", m.is_met());
-  for (const NamedMetric& metric : kNamedMetrics)
-    metrics.add_text(metric.name,
-                     metric_json(m.*metric.figure, metric.dimension == 1 ? unit : area));
+  if (!m.figures.empty()) metrics.add("figures", Json(m.figures));
+  if (m.normals) metrics.add("normals", *m.normals);
+  const std::array<Json, 3> units{Json(), unit, area};
+  for (const NamedMetric& metric : kNamedMetrics) {
+    if (m.normals || !metric.of_normals)
+      metrics.add_text(metric.name,
+                       metric_json(m.*metric.figure, units[static_cast<size_t>(metric.dimension)]));
+  }
   std::string within;
   for (const MetricsWithin& at : m.within)
-    within += (within.empty() ? "" : ",") + metrics_within_json(at, unit);
+    within += (within.empty() ? "" : ",") + metrics_within_json(at, unit, m.normals.has_value());
   metrics.add_text("within", "[" + within + "]");
   json.add_text("metrics", metrics.text());
 }
@@ -84,11 +106,15 @@ void add_metrics(JsonObject& json, const Answer& answer) {
 Metrics metrics_from(const Json& json) {
   Metrics m;
   m.percentile = metric_number(json, "percentile");
-  for (const NamedMetric& metric : kNamedMetrics)
-    m.*metric.figure = metric_from(metric_member(json, metric.name));
+  m.figures = figures_from(json);
+  if (json.contains("normals")) m.normals = metric_number(json, "normals");
+  for (const NamedMetric& metric : kNamedMetrics) {
+    if (m.normals || !metric.of_normals)
+      m.*metric.figure = metric_from(metric_member(json, metric.name));
+  }
   const Json& within = metric_member(json, "within");
   if (!within.is_array()) throw InputError("metrics: within is no array");
-  for (const Json& at : within) m.within.push_back(metrics_within_from(at));
+  for (const Json& at : within) m.within.push_back(metrics_within_from(at, m.normals.has_value()));
   if (metric_truth(json, "met") != m.is_met())
     throw InputError("metrics: met contradicts the figures");
   return m;

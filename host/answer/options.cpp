@@ -169,6 +169,14 @@ double parse_percentile(const char* option, const std::string& text) {
   return quantity.number;
 }
 
+double parse_angle(const char* option, const std::string& text) {
+  Quantity quantity;
+  const bool is_angle = split(text, quantity) && quantity.number <= 90 &&
+                        (quantity.unit.empty() || quantity.unit == "deg");
+  if (!is_angle) refuse(option, text, "an angle above 0 and at most 90 degrees, such as 20deg");
+  return quantity.number;
+}
+
 PartOf parse_part(const std::string& text) {
   PartOf part;
   const char* end = text.data() + text.size();

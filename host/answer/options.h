@@ -39,6 +39,8 @@ double parse_share(const char* option, const std::string& text);
 
 /// "95", or "95%": above 0 and at most 100. Throws UsageError.
 double parse_percentile(const char* option, const std::string& text);
+/// An angle above 0 and at most 90 degrees.
+double parse_angle(const char* option, const std::string& text);
 
 /// "3/8": part 3, from 0, of 8. Throws UsageError.
 PartOf parse_part(const std::string& text);

@@ -102,7 +102,12 @@ Answer unread_answer(const Question& question) {
   if (!question.face_max_a.empty()) known.max->faces_a = FaceLimits{.path = question.face_max_a};
   if (!question.face_max_b.empty()) known.max->faces_b = FaceLimits{.path = question.face_max_b};
   known.a_to_b.upper = std::numeric_limits<double>::infinity();
-  if (question.metrics) known.metrics.emplace().percentile = question.metrics->percentile;
+  if (question.metrics) {
+    Metrics& metrics = known.metrics.emplace();
+    metrics.percentile = question.metrics->percentile;
+    metrics.figures = question.metrics->figures;
+    metrics.normals = question.metrics->normals;
+  }
   if (question.symmetric) known.b_to_a = known.a_to_b;
   return known;
 }
@@ -117,6 +122,23 @@ void check_area(const Question& question, const Mesh& mesh) {
   if (!question.max || !question.area || areas_of(mesh).is_positive()) return;
   reject(mesh.name, "", "faces without area",
          "a surface, of which --area " + question.area_requested + " asks a share");
+}
+
+// Refuses figures of distances that are not given, and of normals without their angle.
+void check_figures(const Question& question) {
+  if (!question.metrics) return;
+  for (const std::string& figure : question.metrics->figures) {
+    const auto is_it = [&](const auto& named) { return figure == named.name; };
+    const auto metric = std::find_if(kNamedMetrics.begin(), kNamedMetrics.end(), is_it);
+    const auto share = std::find_if(kNamedShares.begin(), kNamedShares.end(), is_it);
+    if (share != kNamedShares.end() && question.bands.empty())
+      throw UsageError(question.option("figures") + " " + figure + ": give its distances by " +
+                       question.option("bands"));
+    const bool of_normals = share != kNamedShares.end() ? share->of_normals : metric->of_normals;
+    if (of_normals && !question.metrics->normals)
+      throw UsageError(question.option("figures") + " " + figure + ": give the angle by " +
+                       question.option("normals"));
+  }
 }
 
 // Refuses what a surface alone has.
@@ -308,6 +330,7 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   if (units.differ())
     throw UsageError("A is in " + units.a + " and B in " + units.b + ": convert one of them");
   check_points(question, a, b);
+  check_figures(question);
   check_max_distance(question);
   check_area(question, a);
   if (question.symmetric) check_area(question, b);
@@ -358,6 +381,9 @@ SolveOptions solve_options(const Question& question, const Answer& known) {
   // The survey decides a question about area.
   if (known.max && !known.max->area) options.limit = known.max->limit;
   options.coverage = question.verify;
+  // The surveys bound each distance: a search would narrow the largest one alone.
+  if (question.metrics && !question.metrics->asks_for({"hausdorff"}))
+    options.wave_limit = std::min(options.wave_limit, 1u);
   if (question.known_lower)
     options.known_lower =
         limit_in_files(*question.known_lower, question.option("known-lower").c_str(), known.unit,

@@ -217,6 +217,7 @@ std::string in_unit(const std::string& text, const std::string& unit) {
 }
 
 std::string metric_unit(const Answer& answer, int dimension) {
+  if (dimension == 0) return "";
   return answer.unit.empty() || dimension == 1 ? answer.unit : answer.unit + "^2";
 }
 
@@ -239,6 +240,14 @@ std::string share_metric_text(const Metric& metric) {
          goal_text(metric);
 }
 
+// Whether a figure is told: it is asked for, and it is one.
+template <class Named>
+bool is_shown(const Metrics& m, const Named& named) {
+  return m.asks_for(named.name) && (m.normals || !named.of_normals);
+}
+
+std::string angle_text(double degrees) { return " and " + shortest_decimal(degrees) + " degrees"; }
+
 std::string distance_text(const Answer& answer, const MetricsWithin& at) {
   return in_unit(length_in_words({at.distance, at.distance}), answer.unit);
 }
@@ -251,14 +260,20 @@ std::string metrics_in_words(const Answer& answer) {
   for (const NamedMetric& metric : kNamedMetrics) {
     const bool is_first = metric.figure == &Metrics::hausdorff || metric.figure == &Metrics::hd_p ||
                           metric.figure == &Metrics::assd || metric.figure == &Metrics::chamfer_l1;
-    if (!is_first) continue;
+    if (m.figures.empty() ? !is_first : !is_shown(m, metric)) continue;
     const Enclosure& e = (m.*metric.figure).value;
     text += (text.empty() ? "" : ", ") + name_of(metric, m.percentile) + " " +
-            in_unit(likely_text(e, 1e-3 * e.lower), answer.unit);
+            in_unit(likely_text(e, 1e-3 * e.lower), metric_unit(answer, metric.dimension));
   }
-  for (const MetricsWithin& at : m.within)
-    text += ", f1 " + likely_text(in_percent(at.f1.value), kShownPercent) + " % within " +
-            distance_text(answer, at);
+  for (const MetricsWithin& at : m.within) {
+    for (const NamedShare& share : kNamedShares) {
+      const bool is_first = share.figure == &MetricsWithin::f1;
+      if (m.figures.empty() ? !is_first : !is_shown(m, share)) continue;
+      text += (text.empty() ? "" : ", ") + std::string(share.name) + " " +
+              likely_text(in_percent((at.*share.figure).value), kShownPercent) + " % within " +
+              distance_text(answer, at);
+    }
+  }
   return text + (m.is_met() ? "" : "; not all are as narrow as asked");
 }
 
@@ -266,13 +281,18 @@ std::vector<TableRow> metrics_rows(const Answer& answer) {
   const Metrics& m = *answer.metrics;
   std::vector<TableRow> rows;
   rows.reserve(kNamedMetrics.size() + kNamedShares.size() * m.within.size());
-  for (const NamedMetric& metric : kNamedMetrics)
-    rows.push_back({name_of(metric, m.percentile),
-                    metric_text(m.*metric.figure, metric_unit(answer, metric.dimension))});
+  for (const NamedMetric& metric : kNamedMetrics) {
+    if (is_shown(m, metric))
+      rows.push_back({name_of(metric, m.percentile),
+                      metric_text(m.*metric.figure, metric_unit(answer, metric.dimension))});
+  }
   for (const MetricsWithin& at : m.within) {
-    for (const NamedShare& share : kNamedShares)
-      rows.push_back({share.name, share_metric_text(at.*share.figure) + " within " +
-                                      distance_text(answer, at)});
+    for (const NamedShare& share : kNamedShares) {
+      if (is_shown(m, share))
+        rows.push_back({share.name, share_metric_text(at.*share.figure) + " within " +
+                                        distance_text(answer, at) +
+                                        (share.of_normals ? angle_text(*m.normals) : "")});
+    }
   }
   return rows;
 }

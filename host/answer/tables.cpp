@@ -65,13 +65,17 @@ void add_names(const std::string& name, std::vector<std::string>& cells) {
   for (const char* end : {"", "_lower", "_upper"}) cells.push_back(name + end);
 }
 
-void add_names_of_metrics(size_t distances, std::vector<std::string>& cells) {
+void add_names_of_metrics(const CsvColumns& with, std::vector<std::string>& cells) {
   cells.emplace_back("percentile");
-  for (const NamedMetric& metric : kNamedMetrics) add_names(metric.name, cells);
-  for (size_t i = 1; i <= distances; ++i) {
+  for (const NamedMetric& metric : kNamedMetrics) {
+    if (with.normals || !metric.of_normals) add_names(metric.name, cells);
+  }
+  for (size_t i = 1; i <= with.distances; ++i) {
     cells.push_back("within_" + std::to_string(i));
-    for (const NamedShare& share : kNamedShares)
-      add_names(share.name + ("_" + std::to_string(i)), cells);
+    for (const NamedShare& share : kNamedShares) {
+      if (with.normals || !share.of_normals)
+        add_names(share.name + ("_" + std::to_string(i)), cells);
+    }
   }
 }
 
@@ -82,12 +86,18 @@ void add_figure(const Metric& metric, std::vector<std::string>& cells) {
   cells.push_back(bound(e.upper, Rounding::kUp));
 }
 
-void add_metrics_cells(const Metrics& m, std::vector<std::string>& cells) {
+// A record without figures of normals has none of them in its columns.
+void add_metrics_cells(const Metrics& m, bool has_normals, std::vector<std::string>& cells) {
+  const auto add = [&](const Metric& metric, bool of_normals) {
+    if (of_normals && !has_normals) return;
+    if (of_normals && !m.normals) return cells.resize(cells.size() + 3);
+    add_figure(metric, cells);
+  };
   cells.push_back(shortest_decimal(m.percentile));
-  for (const NamedMetric& metric : kNamedMetrics) add_figure(m.*metric.figure, cells);
+  for (const NamedMetric& metric : kNamedMetrics) add(m.*metric.figure, metric.of_normals);
   for (const MetricsWithin& at : m.within) {
     cells.push_back(shortest_decimal(at.distance));
-    for (const NamedShare& share : kNamedShares) add_figure(at.*share.figure, cells);
+    for (const NamedShare& share : kNamedShares) add(at.*share.figure, share.of_normals);
   }
 }
 
@@ -100,7 +110,7 @@ std::string csv_heading(const CsvColumns& with) {
   for (const std::string& name : with.sides ? names_of_sides() : std::vector<std::string>())
     cells.insert(cells.end(), {name + "_lower", name + "_upper"});
   if (with.sides) cells.emplace_back("unsigned_share");
-  if (with.metrics) add_names_of_metrics(with.distances, cells);
+  if (with.metrics) add_names_of_metrics(with, cells);
   return row_of(cells);
 }
 
@@ -127,10 +137,10 @@ std::string csv_row(const Record& r, const CsvColumns& with) {
                  {milliseconds(r.gpu_ms), milliseconds(r.total_ms), r.host, r.started});
   if (with.sides) add_sides(r, cells);
   const size_t before = cells.size();
-  if (with.metrics && r.metrics) add_metrics_cells(*r.metrics, cells);
+  if (with.metrics && r.metrics) add_metrics_cells(*r.metrics, with.normals, cells);
   if (with.metrics) {
     std::vector<std::string> names;
-    add_names_of_metrics(with.distances, names);
+    add_names_of_metrics(with, names);
     cells.resize(before + names.size());
   }
   return row_of(cells);

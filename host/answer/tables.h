@@ -13,6 +13,7 @@ struct CsvColumns {
   bool run = false;      ///< times, which two runs do not have in common
   bool sides = false;    ///< signed figures: some record has them
   bool metrics = false;  ///< some record has them
+  bool normals = false;  ///< some record's metrics have figures of normals
   size_t distances = 0;  ///< the most distances that a record's metrics have shares within
 };
 /// CSV (RFC 4180): a heading, and a row per pair.

@@ -33,7 +33,8 @@ const std::map<std::string, HelpOfCommand>& help_of_commands() {
                     "device or driver; ") +
             kOutputCode + "."}},
       {"metrics",
-       {{"percentile", "bands", "unit", "tol", "effort", "json", "verbose", "device", "time"},
+       {{"percentile", "bands", "figures", "normals", "unit", "tol", "effort", "json", "device",
+         "time"},
         std::string("0 each figure is as narrow as it is to be; 2 usage; 3 a figure is not "
                     "(intervals are true); 4 bad input, or a mesh without area; 5 device or "
                     "driver; ") +
@@ -80,11 +81,11 @@ struct HelpGroup {
 const std::vector<HelpGroup>& help_groups() {
   static const std::vector<HelpGroup> known{
       {"What is asked",
-       {"max",       "face-max", "face-max-b", "area",           "worst",   "tol",
-        "symmetric", "polygons", "bodies",     "points",         "part",    "known-lower",
-        "stats",     "signed",   "metrics",    "percentile",     "bands",   "max-distance",
-        "field-tol", "effort",   "against",    "allow-unpaired", "one-way", "lock-borders",
-        "levels",    "ratio"}},
+       {"max",       "face-max",     "face-max-b", "area",       "worst",   "tol",
+        "symmetric", "polygons",     "bodies",     "points",     "part",    "known-lower",
+        "stats",     "signed",       "metrics",    "percentile", "bands",   "figures",
+        "normals",   "max-distance", "field-tol",  "effort",     "against", "allow-unpaired",
+        "one-way",   "lock-borders", "levels",     "ratio"}},
       {"What the meshes are in, and where A lies",
        {"unit", "unit-a", "unit-b", "transform", "scale", "align", "save-transform"}},
       {"What is printed and written",

@@ -51,6 +51,7 @@ class Tables {
     results.for_each([&](const Record& record, const std::string&) {
       with.sides = with.sides || record.sides.has_value();
       with.metrics = with.metrics || record.metrics.has_value();
+      with.normals = with.normals || (record.metrics && record.metrics->normals);
       if (record.metrics) with.distances = std::max(with.distances, record.metrics->within.size());
     });
     std::vector<std::pair<Rank, std::string>> rows;

@@ -138,8 +138,10 @@ namespace {
 void check_metrics(const Typed& typed) {
   if (typed.metrics && !typed.max.empty())
     throw UsageError("--metrics: figures are no verdict: leave out --max, or ask for it by itself");
-  if (!typed.metrics && (!typed.bands.empty() || !typed.percentile.empty()))
-    throw UsageError("--bands, --percentile: are of --metrics");
+  const bool has_more = !typed.bands.empty() || !typed.percentile.empty() ||
+                        !typed.figures.empty() || !typed.normals.empty();
+  if (!typed.metrics && has_more)
+    throw UsageError("--bands, --percentile, --figures, --normals: are of --metrics");
 }
 
 }  // namespace
@@ -154,6 +156,9 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   line.question = question_of(of_pairs, words, "batch");
   line.question.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
   line.question.statistics = line.question.is_signed;  // a line of results has figures
+  // Figures that are not met by then are few, and would take most of the time (docs/metrics.md).
+  constexpr uint64_t kEffortOfMetrics = 1'000'000;
+  if (line.question.metrics && !line.question.effort) line.question.effort = kEffortOfMetrics;
   BatchAsked& batch = line.batch;
   put_source(typed, batch);
   batch.results = typed.results;

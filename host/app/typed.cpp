@@ -47,6 +47,9 @@ void add_survey_of(const Typed& typed, Question& question) {
     question.metrics.emplace();
     if (!typed.percentile.empty())
       question.metrics->percentile = parse_percentile("--percentile", typed.percentile);
+    question.metrics->figures =
+        checked_figures("--figures", typed.figures, question.metrics->percentile);
+    if (!typed.normals.empty()) question.metrics->normals = parse_angle("--normals", typed.normals);
   }
   if (!typed.max_distance.empty())
     question.max_distance =
@@ -303,6 +306,18 @@ void add_metrics_options(CLI::App& command, Typed& typed) {
       ->delimiter(',')
       ->type_name("LENGTH,..")
       ->allow_extra_args(false);
+  command
+      .add_option("--figures", typed.figures,
+                  "Seek these alone, which takes less time: f1,hd95,assd; others are as wide as "
+                  "that leaves them [all]")
+      ->delimiter(',')
+      ->type_name("NAME,..")
+      ->allow_extra_args(false);
+  command
+      .add_option("--normals", typed.normals,
+                  "Also figures of normals: normal_consistency, and precision_normals, "
+                  "recall_normals and f1_normals, of area whose normals agree to this angle: 20deg")
+      ->type_name("ANGLE");
 }
 
 void add_pair(CLI::App& command, Typed& typed) {

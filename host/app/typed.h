@@ -25,9 +25,11 @@ struct Typed {
   std::string json, junit, area, field_tolerance, max_distance;
   TypedPictures pictures;
   std::vector<std::string> bands;
-  std::string percentile;    ///< of metrics
-  bool metrics = false;      ///< both directions' figures by name
-  bool may_stretch = false;  ///< --scale
+  std::string percentile;            ///< of metrics
+  std::vector<std::string> figures;  ///< of metrics
+  std::string normals;               ///< of metrics
+  bool metrics = false;              ///< both directions' figures by name
+  bool may_stretch = false;          ///< --scale
   bool align = false;
   bool worst = false;
   bool github = false, verbose = false, symmetric = false, verify = false, no_cache = false,

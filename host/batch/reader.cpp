@@ -69,7 +69,12 @@ void add_sides(const Question& question, std::string& text) {
     text += "\nover " + question.max_sides->over.requested + " under " +
             question.max_sides->under.requested;
   if (question.is_signed) text += "\nsigned";
-  if (question.metrics) text += "\nmetrics " + shortest_decimal(question.metrics->percentile);
+  if (question.metrics) {
+    text += "\nmetrics " + shortest_decimal(question.metrics->percentile);
+    for (const std::string& figure : question.metrics->figures) text += " " + figure;
+    if (question.metrics->normals)
+      text += " normals " + shortest_decimal(*question.metrics->normals);
+  }
   for (const Length& band : question.bands) text += "\nwithin " + band.requested;
   if (question.asks_for_survey() && question.effort)
     text += "\neffort " + std::to_string(*question.effort);

@@ -245,16 +245,21 @@ py::tuple metric_of(const Metric& metric) {
 /// Returns what _metrics.py makes Metrics of.
 py::dict metrics_of(const Question& question, const Metrics& m) {
   py::dict lengths;
-  for (const NamedMetric& metric : kNamedMetrics)
-    lengths[metric.name] = metric_of(m.*metric.figure);
+  for (const NamedMetric& metric : kNamedMetrics) {
+    if (m.normals || !metric.of_normals) lengths[metric.name] = metric_of(m.*metric.figure);
+  }
   py::list within;
   for (size_t i = 0; i < m.within.size(); ++i) {
     py::dict shares;
-    for (const NamedShare& share : kNamedShares)
-      shares[share.name] = metric_of(m.within[i].*share.figure);
+    for (const NamedShare& share : kNamedShares) {
+      if (m.normals || !share.of_normals) shares[share.name] = metric_of(m.within[i].*share.figure);
+    }
     within.append(py::make_tuple(key_of(question.bands[i]), shares));
   }
-  return py::dict("percentile"_a = m.percentile, "lengths"_a = lengths, "within"_a = within);
+  py::list figures;
+  for (const std::string& figure : m.figures) figures.append(figure);
+  return py::dict("percentile"_a = m.percentile, "lengths"_a = lengths, "within"_a = within,
+                  "figures"_a = figures);
 }
 
 py::dict transform_of(const PlacedInput& placed) {

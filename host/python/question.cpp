@@ -196,6 +196,11 @@ void read_metrics(const Arguments& given, Question& question) {
   metrics.percentile = number_from("percentile", kExpected, given.at("percentile"));
   if (!(metrics.percentile > 0 && metrics.percentile <= 100))
     refuse_value("percentile", kExpected, given.at("percentile"));
+  metrics.figures = checked_figures("figures", given.texts("figures"), metrics.percentile);
+  constexpr const char* kAngle = "an angle above 0 and at most 90 degrees, or None";
+  metrics.normals = given.number("normals", kAngle);
+  if (metrics.normals && !(*metrics.normals > 0 && *metrics.normals <= 90))
+    refuse_value("normals", kAngle, given.at("normals"));
   question.symmetric = true;
   question.statistics = false;
 }

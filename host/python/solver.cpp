@@ -410,13 +410,14 @@ Result gate(const py::args& positional, const py::kwargs& named) {
 }
 
 Result metrics(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "metrics",
-      {"a",           "b",      "percentile", "bands",     "tol",    "device",     "time",
-       "waves",       "memory", "disable",    "progress",  "enable", "preset",     "effort",
-       "survey_time", "unit_a", "unit_b",     "transform", "scale",  "on_progress"},
-      3,
-      2};
+  static const auto* signature =
+      new Signature{"metrics",
+                    {"a",      "b",           "percentile",  "bands",   "tol",      "device",
+                     "time",   "waves",       "memory",      "disable", "progress", "enable",
+                     "preset", "effort",      "survey_time", "unit_a",  "unit_b",   "transform",
+                     "scale",  "on_progress", "figures",     "normals"},
+                    3,
+                    2};
   const Call call;
   const Arguments arguments(*signature, positional, named);
   return answered({"metrics", arguments, mesh_of("a", "A", arguments.at("a")),

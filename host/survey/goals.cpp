@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/base/parallel.h"
+#include "vkhausdorff/metrics.h"
 
 namespace vkh {
 namespace {
@@ -101,8 +102,15 @@ std::vector<Threshold> bands_of(const Asked& asked) {
   return at;
 }
 
-bool is_enough(const Enclosure& share, const SurveyOptions& options) {
-  if (!options.enough) return width(share) <= options.area_tolerance;
+// How far a share is to be narrowed: its own width, or that of its harmonic mean with the other
+// surface's share where that is larger.
+double width_of_share(const Enclosure& share, size_t band, const SurveyOptions& options) {
+  if (band >= options.other_shares.size()) return width(share);
+  return std::max(width(share), width(harmonic_mean(share, options.other_shares[band])));
+}
+
+bool is_enough(const Enclosure& share, size_t band, const SurveyOptions& options) {
+  if (!options.enough) return width_of_share(share, band, options) <= options.area_tolerance;
   return share.lower >= *options.enough || share.upper < *options.enough;
 }
 
@@ -156,18 +164,31 @@ std::vector<bool> jumps_of(const CellStore& store, const Areas& areas, const Ask
   return jumps;
 }
 
-// A percentile's own width differs from its distribution's: at both ends of it there may be area
-// that is undecided.
-Scores score_distribution(const CellStore& store, const Areas& areas, const Asked& asked,
-                          std::vector<Enclosure>& known) {
+// Scores a cell by the area that is undecided in shares that are too wide.
+Scores score_shares(const CellStore& store, const Areas& areas, const Asked& asked) {
   const std::vector<Threshold> bands = bands_of(asked);
   const std::vector<Enclosure> shares = shares_within(store, areas, bands);
   const std::vector<bool> atoms = jumps_of(store, areas, asked, bands, shares);
   std::vector<Threshold> open;
+  double part = 0;
   for (size_t i = 0; i < bands.size(); ++i) {
     const bool is_left_so = atoms[i] && !asked.options.enough;
-    if (!is_enough(shares[i], asked.options) && !is_left_so) open.push_back(bands[i]);
+    if (is_enough(shares[i], i, asked.options) || is_left_so) continue;
+    open.push_back(bands[i]);
+    part = std::max(part, part_to_split(width_of_share(shares[i], i, asked.options),
+                                        asked.options.area_tolerance));
   }
+  if (open.empty()) return {{}, true};
+  Scores scores = score_undecided(store, areas, open);
+  scores.part = asked.options.enough ? Scores::kNearlyAll : part;
+  return scores;
+}
+
+// A percentile's own width differs from its distribution's: at both ends of it there may be area
+// that is undecided.
+Scores score_percentiles(const CellStore& store, const Areas& areas, const Asked& asked,
+                         std::vector<Enclosure>& known) {
+  std::vector<Threshold> open;
   known =
       percentiles(store, areas, {asked.options.percentiles, resolution_of(store, asked), known});
   const std::vector<bool> gaps = jumps_of(store, areas, asked, known);
@@ -184,14 +205,17 @@ Scores score_distribution(const CellStore& store, const Areas& areas, const Aske
 Scores score_moments(const CellStore& store, const Areas& areas, const Asked& asked) {
   const Moments moments = moments_of(store, areas);
   const bool by_mean = width(moments.mean) > enough(moments.mean, asked);
-  if (!by_mean && width(moments.rms) <= enough(moments.rms, asked)) return {{}, true};
-  return scored(store, [&](size_t i) -> std::optional<double> {
+  const Enclosure& open = by_mean ? moments.mean : moments.rms;
+  if (width(open) <= enough(open, asked)) return {{}, true};
+  Scores scores = scored(store, [&](size_t i) -> std::optional<double> {
     const gpu::CellBounds& b = store.bounds(i);
     if (spread(b) <= kFloor) return 0;
     const double down = mean_lower(b), up = static_cast<double>(b.mean_upper);
     const double squares = static_cast<double>(b.square_upper) - down * down;
     return area_of(store, areas, i) * (by_mean ? up - down : squares);
   });
+  scores.part = part_to_split(width(open), enough(open, asked));
+  return scores;
 }
 
 }  // namespace
@@ -223,13 +247,19 @@ std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pai
   if (options.faces)
     goals.emplace_back([asked](const CellStore& store) { return score_faces(store, asked); });
   if (!options.statistics || !areas.is_positive()) return goals;
+  if (!asked.options.bands.empty()) {
+    goals.emplace_back(
+        [&areas, asked](const CellStore& store) { return score_shares(store, areas, asked); });
+  }
   if (std::isfinite(options.mean_tolerance)) {
     goals.emplace_back(
         [&areas, asked](const CellStore& store) { return score_moments(store, areas, asked); });
   }
-  goals.emplace_back([&areas, &known, asked](const CellStore& store) {
-    return score_distribution(store, areas, asked, known);
-  });
+  if (options.narrows_percentiles) {
+    goals.emplace_back([&areas, &known, asked](const CellStore& store) {
+      return score_percentiles(store, areas, asked, known);
+    });
+  }
   return goals;
 }
 

@@ -1,6 +1,7 @@
 // The goals of a survey: which cells are in the way of what was asked, and how much.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -25,7 +26,16 @@ struct Scored {
 struct Scores {
   std::vector<Scored> cells;
   bool is_met = false;
+  /// So much of the scores is split in one pass, the largest first: nine tenths, since a few cells
+  /// that are wide often matter more than all others together.
+  static constexpr double kNearlyAll = 0.9;
+  double part = kNearlyAll;
 };
+/// The part of the scores to split where a figure is to be so narrow: halves have together about
+/// half of the width of a cell, so that twice what is too much is enough.
+inline double part_to_split(double width, double enough) {
+  return std::clamp(2 * (width - enough) / width, 0.05, Scores::kNearlyAll);
+}
 using Goal = std::function<Scores(const CellStore&)>;
 
 /// Scores all cells that can be split. `score` of a cell returns nothing if the cell is not in the
@@ -69,9 +79,9 @@ double largest_upper(const CellStore& store, const SurveyedPair& pair);
 /// floats leave.
 double least_width(const SurveyedPair& pair);
 
-/// The goals one after the other: faces, then the mean and the root mean square, then the
-/// distribution. They keep in `known` what is known of the percentiles, in the frame, and start
-/// from it. All arguments must outlive them.
+/// The goals one after the other: faces, then shares of area, then the mean and the root mean
+/// square, then percentiles. They keep in `known` what is known of the percentiles, in the frame,
+/// and start from it. All arguments must outlive them.
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas, std::vector<Enclosure>& known);
 

@@ -7,6 +7,7 @@
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
 #include "host/survey/pooled.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {
@@ -190,6 +191,10 @@ MetricsWithin within_of(const Enclosure& weight, const AreaWithin& a, const Area
   at.precision = Goals::share(a.share, a.jump);
   at.recall = Goals::share(b.share, b.jump);
   at.f1 = Goals::share(harmonic_mean(a.share, b.share), jump);
+  if (!a.agreeing || !b.agreeing) return at;
+  at.precision_normals = Goals::share(*a.agreeing, a.jump);
+  at.recall_normals = Goals::share(*b.agreeing, b.jump);
+  at.f1_normals = Goals::share(harmonic_mean(*a.agreeing, *b.agreeing), jump);
   return at;
 }
 
@@ -201,13 +206,59 @@ Enclosure hausdorff_of(const Report& a, const Report& b) {
 
 }  // namespace
 
+namespace {
+
+bool is_named(const std::vector<std::string>& figures, std::string_view name) {
+  return figures.empty() || std::find(figures.begin(), figures.end(), name) != figures.end();
+}
+
+}  // namespace
+
+bool MetricsOptions::asks_for(std::initializer_list<std::string_view> names) const {
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return is_named(figures, name); });
+}
+
+bool Metrics::asks_for(std::string_view name) const { return is_named(figures, name); }
+
 bool Metrics::is_met() const {
-  const bool lengths = std::all_of(kNamedMetrics.begin(), kNamedMetrics.end(),
-                                   [&](const NamedMetric& m) { return (this->*m.figure).is_met; });
-  return lengths && std::all_of(within.begin(), within.end(), [](const MetricsWithin& at) {
-           return std::all_of(kNamedShares.begin(), kNamedShares.end(),
-                              [&](const NamedShare& m) { return (at.*m.figure).is_met; });
+  const auto is_wanted = [&](const auto& named) {
+    return asks_for(named.name) && (normals || !named.of_normals);
+  };
+  const bool lengths =
+      std::all_of(kNamedMetrics.begin(), kNamedMetrics.end(),
+                  [&](const NamedMetric& m) { return (this->*m.figure).is_met || !is_wanted(m); });
+  return lengths && std::all_of(within.begin(), within.end(), [&](const MetricsWithin& at) {
+           return std::all_of(kNamedShares.begin(), kNamedShares.end(), [&](const NamedShare& m) {
+             return (at.*m.figure).is_met || !is_wanted(m);
+           });
          });
+}
+
+std::string names_of_figures() {
+  std::string names;
+  for (const NamedMetric& metric : kNamedMetrics)
+    names += (names.empty() ? "" : ", ") + std::string(metric.name);
+  for (const NamedShare& share : kNamedShares) names += ", " + std::string(share.name);
+  return names;
+}
+
+std::vector<std::string> checked_figures(const std::string& option,
+                                         const std::vector<std::string>& names, double percentile) {
+  std::vector<std::string> known;
+  for (const std::string& name : names) {
+    std::string found;
+    for (const NamedMetric& metric : kNamedMetrics) {
+      if (name == metric.name || name == name_of(metric, percentile)) found = metric.name;
+    }
+    for (const NamedShare& share : kNamedShares) {
+      if (name == share.name) found = name;
+    }
+    if (found.empty())
+      throw UsageError(option + " '" + name + "': expected names of " + names_of_figures());
+    known.push_back(found);
+  }
+  return known;
 }
 
 std::string name_of(const NamedMetric& metric, double percentile) {
@@ -230,6 +281,8 @@ Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
   const bool roots = goals.is_met(of_a.rms) && goals.is_met(of_b.rms);
   Metrics m;
   m.percentile = options.percentile;
+  m.figures = options.figures;
+  m.normals = options.normals;
   m.hausdorff = goals.length(hausdorff_of(a.report, b.report), false);
   m.hd_p = goals.length(larger(p.distance, q.distance), false, p.jump || q.jump);
   Enclosure pooled = pooled_percentile(part_a, part_b, p.share, between);
@@ -243,6 +296,10 @@ Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
   const Enclosure squares = sum(square(of_a.rms), square(of_b.rms));
   m.chamfer_l2 = {squares,
                   roots || known_to(squares) <= 2 * MetricsOptions::kTolerance * squares.lower};
+  if (of_a.normal_cosine && of_b.normal_cosine) {
+    const Enclosure mean = half(sum(*of_a.normal_cosine, *of_b.normal_cosine));
+    m.normal_consistency = {mean, known_to(mean) <= MetricsOptions::kNormalTolerance};
+  }
   for (size_t i = 0; i < std::min(of_a.bands.size(), of_b.bands.size()); ++i)
     m.within.push_back(within_of(weight, of_a.bands[i], of_b.bands[i]));
   return m;

@@ -8,99 +8,14 @@
 
 #include "host/base/float128.h"
 #include "host/base/rounding.h"
-#include "host/mesh/closest.h"
-#include "host/survey/cell_corners.h"
+#include "host/survey/measured.h"
 #include "host/survey/sets.h"
 
 namespace vkh {
 namespace {
 
-constexpr double kRound = 0x1p-53;  // a double operation's rounding, of its result
-// Scaling may underflow by 2^-1074 a coordinate, and products of two such coordinates may by as
-// much: beside coordinates of under 2^60 all of that is under this.
-constexpr double kUnderflow = 0x1p-900;
 // The faces that are looked at for one cell, at most: from the centre of a sphere all are closest.
 constexpr int kMostFaces = 4096;
-
-double sum_of_sizes(const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
-std::vector<glm::dvec3> scaled(const Mesh& mesh, const Frame& frame, bool& is_exact) {
-  std::vector<glm::dvec3> vertices;
-  vertices.reserve(mesh.vertices.size());
-  Frame back;
-  back.exponent = -frame.exponent;
-  for (const DVec3& v : mesh.vertices) {
-    const glm::dvec3 s(frame.to_frame(v.x), frame.to_frame(v.y), frame.to_frame(v.z));
-    is_exact = is_exact && back.to_frame(s.x) == v.x && back.to_frame(s.y) == v.y &&
-               back.to_frame(s.z) == v.z;
-    vertices.push_back(s);
-  }
-  return vertices;
-}
-
-// Barycentrics of a cell's corner as integers with the sum 2^20.
-glm::dvec3 weights_of(const glm::uvec2& corner) {
-  return {static_cast<double>(gpu::kBaryOne - corner.x - corner.y), static_cast<double>(corner.x),
-          static_cast<double>(corner.y)};
-}
-
-double farthest(const Corners3& t) {
-  double most = 0;
-  for (const glm::dvec3& p : t)
-    most = std::max({most, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return most;
-}
-
-// Each product and each sum of the three terms rounds by kRound of the largest coordinate at most,
-// since the weights add up to 2^20; the division rounds nothing. That is 3; 4 are taken.
-glm::dvec3 point_at(const Corners3& face, const glm::dvec3& weights) {
-  return (face[0] * weights.x + face[1] * weights.y + face[2] * weights.z) * 0x1p-20;
-}
-double off_at(const Corners3& face) { return 4 * kRound * farthest(face) + kUnderflow; }
-
-// Above the length of v, whose components may be off by kRound of themselves, each: squares, sums
-// and the root round by three more.
-double length_up(const glm::dvec3& v) {
-  return std::sqrt(glm::dot(v, v)) * (1 + 8 * kRound) + kUnderflow;
-}
-
-struct FromPoint {
-  Corners3 corners;
-  double reach = 0;  // at least the largest distance of a corner, but for a few kRound of itself
-};
-FromPoint seen_from(const glm::dvec3& p, const Corners3& triangle) {
-  FromPoint seen;
-  for (size_t i = 0; i < 3; ++i) {
-    seen.corners[i] = triangle[i] - p;
-    seen.reach = std::max(seen.reach, sum_of_sizes(seen.corners[i]));
-  }
-  return seen;
-}
-
-glm::dvec3 nearest_to_origin(const FromPoint& seen) {
-  const auto& [a, b, c] = seen.corners;
-  return closest_point(glm::dvec3(0), a, b, c).point;
-}
-
-// Above the distance of a triangle: the point that was found is one of it but for the rounding of
-// its corners, its weights and its sum, under 32 * 2^-52 of the reach as in leaf.cpp.
-double distance_above(const FromPoint& seen) {
-  return length_up(nearest_to_origin(seen)) + 64 * kRound * seen.reach;
-}
-
-// Below the distance of a triangle: with g = q / |q| for any q, no point of it is nearer than its
-// least corner along g. Components of g are off by 4 kRound of themselves, of corners by one, and a
-// product of three components by 3: under 8 kRound of the reach, by Cauchy; |g| is at most
-// 1 + 4 kRound. 16 are taken.
-double distance_below(const FromPoint& seen) {
-  const glm::dvec3 q = nearest_to_origin(seen);
-  const double size = std::sqrt(glm::dot(q, q));
-  if (!(size > 1e-140)) return 0;
-  const glm::dvec3 g = q / size;
-  const double least = std::min(
-      {glm::dot(g, seen.corners[0]), glm::dot(g, seen.corners[1]), glm::dot(g, seen.corners[2])});
-  return least - 16 * kRound * seen.reach;
-}
 
 struct Wide {
   Float128 x = 0, y = 0, z = 0;
@@ -192,13 +107,9 @@ Sides::Sides(const SurveyedPair& pair, GoesOn goes_on)
       vertices_(scaled(pair.a, pair.frame, is_exact_)),
       shells_(scaled(pair.b, pair.frame, is_exact_), pair.b.faces, goes_on_) {}
 
-Sides::Placed Sides::placed(const gpu::Cell& cell) const {
+PlacedCell Sides::placed(const gpu::Cell& cell) const {
   const UVec3& f = a_.faces[cell.face];
-  const Corners3 face = {vertices_[f.x], vertices_[f.y], vertices_[f.z]};
-  const lib::Bary3 t = corners_of(cell);
-  return {{point_at(face, weights_of(t.a)), point_at(face, weights_of(t.b)),
-           point_at(face, weights_of(t.c))},
-          off_at(face)};
+  return placed_cell({vertices_[f.x], vertices_[f.y], vertices_[f.z]}, cell);
 }
 
 // 1 or -1 if all three corners lie on that side of the plane, by more than the error; 0 otherwise.
@@ -228,21 +139,14 @@ double Sides::distance_up(const glm::dvec3& p, uint32_t hint) const {
   return best;
 }
 
-// Any point c serves as the centre, with the largest distance r of the cell's corners from it: a
-// face that is closest to some point of the cell is no farther from c than d(c, B) + 2 r.
 CellSide Sides::by_faces(const gpu::Cell& cell, uint32_t hint) const {
-  const Placed at = placed(cell);
-  const glm::dvec3 centre = (at.corners[0] + at.corners[1] + at.corners[2]) * (1.0 / 3);
-  double radius = 0;
-  for (const glm::dvec3& p : at.corners)
-    radius = std::max(radius, length_up(p - centre) + 2 * at.off);
-  const double reach = (distance_up(centre, hint) + 2 * radius) * (1 + 8 * kRound);
-  const double reach2 = reach * reach * (1 + 16 * kRound) + kUnderflow;
+  const CellBall ball =
+      ball_of(placed(cell), [&](const glm::dvec3& p) { return distance_up(p, hint); });
   CellSide found;
   int seen = 0;
   const auto look = [&](uint32_t face) {
     const Corners3& plane = shells_.corners(face);
-    if (distance_below(seen_from(centre, plane)) > reach) return true;
+    if (!ball.may_hold(plane)) return true;
     int side = 0;
     if (shells_.is_bare(face)) {
       found.doubt = Doubt::kDegenerate;
@@ -259,8 +163,8 @@ CellSide Sides::by_faces(const gpu::Cell& cell, uint32_t hint) const {
     if (found.doubt == Doubt::kEdge && shells_.is_two_sided(face)) found.doubt = Doubt::kTwoSided;
     return found.doubt == Doubt::kNone;
   };
-  const bool is_sure = shells_.tree().walk(
-      [&](const TriangleBox& box) { return distance2(centre, box) <= reach2; }, look);
+  const bool is_sure =
+      shells_.tree().walk([&](const TriangleBox& box) { return ball.may_hold(box); }, look);
   if (!is_sure) found.side = SurfaceSide::kUnsigned;
   return found;
 }
@@ -444,7 +348,7 @@ double Sides::distance_down(const glm::dvec3& p, uint32_t hint) const {
 // The corner lies within 2 `off` of the double that stands for it, which is more than sqrt(3) off.
 // Sides are of the meshes as they are held, and so is this distance: the deltas are taken off.
 SidedPoint Sides::farthest_corner(const gpu::Cell& cell, uint32_t hint) const {
-  const Placed at = placed(cell);
+  const PlacedCell at = placed(cell);
   const lib::Bary3 weights = corners_of(cell);
   const std::array<glm::dvec3, 3> of_corners = {weights_of(weights.a), weights_of(weights.b),
                                                 weights_of(weights.c)};

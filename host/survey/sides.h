@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/survey/cell_store.h"
+#include "host/survey/measured.h"
 #include "host/survey/shells.h"
 #include "host/survey/stoppable.h"
 #include "vkhausdorff/field.h"
@@ -63,13 +64,7 @@ class Sides {
   CellSide by_faces(const gpu::Cell& cell, uint32_t hint) const;
 
  private:
-  /// A cell's corners to within `off` in each coordinate.
-  struct Placed {
-    Corners3 corners;
-    double off;
-  };
-
-  Placed placed(const gpu::Cell& cell) const;
+  PlacedCell placed(const gpu::Cell& cell) const;
   template <class Real>
   int side_of_plane(const gpu::Cell& cell, const Corners3& plane) const;
   double distance_up(const glm::dvec3& p, uint32_t hint) const;

@@ -266,6 +266,45 @@ Enclosure share_of(double least, double most, const Areas& areas) {
 
 }  // namespace
 
+Enclosure mean_over(const CellStore& cells, const Areas& areas,
+                    const std::function<Enclosure(size_t)>& of_cell) {
+  struct Parts {
+    Sum lower, upper;
+    double least = 1, most = 0;
+    void add(double area_lower, double area_upper, const Enclosure& value) {
+      lower.add(area_lower);
+      upper.add(area_upper);
+      least = std::min(least, value.lower);
+      most = std::max(most, value.upper);
+    }
+  };
+  std::vector<Parts> blocks(block_count(cells.count()));
+  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const double area = part_of(cells, areas, i);
+      const Enclosure value = of_cell(i);
+      blocks[block].add(area * value.lower, area * value.upper, value);
+    }
+  });
+  Parts all;
+  for (const Parts& block : blocks)
+    all.add(block.lower.value(), block.upper.value(), {block.least, block.most});
+  Enclosure mean = share_of(all.lower.value(), all.upper.value(), areas);
+  if (all.least == 1) mean.lower = 1;
+  if (all.most == 0) mean.upper = 0;
+  return mean;
+}
+
+// A share of 1 or 0 is exact, whatever the others are rounded to.
+Enclosure share_within(const CellStore& cells, size_t i, const Threshold& at) {
+  const auto share = [](const Slope& slope, double t) {
+    if (t < slope.least()) return 0.0;
+    if (t >= static_cast<double>(slope.most)) return 1.0;
+    return std::clamp(slope.share(t), std::numeric_limits<double>::min(), 1 - kUnit);
+  };
+  return {share(surely_within({cells}, i), at.down), share(perhaps_within({cells}, i), at.up)};
+}
+
 // Scaling by a power of two rounds subnormal results alone, which are far below `displacement`.
 Threshold threshold_at(const Frame& frame, double displacement, double distance) {
   const double d = frame.to_frame(distance);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -71,6 +72,13 @@ Enclosure signed_mean(const CellStore& cells, std::span<const CellSide> sides, c
 std::array<Enclosure, kDoubts + 2> shares_of_sides(const CellStore& cells,
                                                    std::span<const CellSide> sides,
                                                    const Areas& areas);
+
+/// The mean over A's area of a quantity in [0, 1] that `of_cell` encloses on each cell.
+Enclosure mean_over(const CellStore& cells, const Areas& areas,
+                    const std::function<Enclosure(size_t)>& of_cell);
+
+/// The share of cell i that is surely, and perhaps, within a distance.
+Enclosure share_within(const CellStore& cells, size_t i, const Threshold& at);
 
 /// The mean of d(x, B) over the cell, from below.
 double mean_lower(const gpu::CellBounds& bounds);

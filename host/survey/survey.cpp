@@ -8,6 +8,7 @@
 #include "host/survey/distribution.h"
 #include "host/survey/goals.h"
 #include "host/survey/map_goal.h"
+#include "host/survey/normals.h"
 #include "host/survey/pooled.h"
 #include "host/survey/signed_figures.h"
 #include "vkhausdorff/error.h"
@@ -143,33 +144,33 @@ uint64_t weight(double score, double largest) {
   return static_cast<uint64_t>(score / largest * 0x1p31);
 }
 
-// Whether some cells have nearly all of the score, nine tenths: a few that are wide often matter
-// more than all others together.
-bool is_nearly_all(uint64_t chosen, uint64_t whole) { return chosen / 9 >= whole / 10; }
-
-// Moves the cells that matter most to the front, and returns how many they are: `most` at most.
-// Which they are follows from scores and numbers of cells alone, which are a total order.
-size_t count_that_matter(std::vector<Scored>& scored, size_t most) {
+// Moves the cells that matter most to the front, those with `part` of all scores, and returns how
+// many they are: `most` at most. Which they are follows from scores and numbers of cells alone,
+// which are a total order.
+size_t count_that_matter(std::vector<Scored>& scored, double part, size_t most) {
   double largest = 0;
   for (const Scored& s : scored) largest = std::max(largest, s.score);
   uint64_t whole = 0, chosen = 0;
   for (const Scored& s : scored) whole += weight(s.score, largest);
   most = std::min(most, scored.size());
+  const auto wanted = static_cast<uint64_t>(part * static_cast<double>(whole));
   size_t count = 0;
-  for (size_t next = kFewestSplits; count < most && !is_nearly_all(chosen, whole); next *= 2) {
+  for (size_t next = kFewestSplits; count < most && chosen < wanted; next *= 2) {
     const size_t end = std::min(next, most);
     const auto at = [&](size_t i) { return scored.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(at(count), at(end - 1), scored.end());
-    for (; count < end; ++count) chosen += weight(scored[count].score, largest);
+    if (count > 0) std::sort(at(count), at(end));
+    for (; count < end && (count < kFewestSplits || chosen < wanted); ++count)
+      chosen += weight(scored[count].score, largest);
   }
   return count;
 }
 
 // The cells to split, by their numbers: the halves' numbers follow from this order.
-std::vector<size_t> chosen_cells(const CellStore& store, std::vector<Scored>& scored, size_t most) {
-  const size_t count = count_that_matter(scored, most);
+std::vector<size_t> chosen_cells(const CellStore& store, Scores& scores, size_t most) {
+  const size_t count = count_that_matter(scores.cells, scores.part, most);
   std::vector<bool> is_chosen(store.count());
-  for (size_t i = 0; i < count; ++i) is_chosen[scored[i].cell] = true;
+  for (size_t i = 0; i < count; ++i) is_chosen[scores.cells[i].cell] = true;
   std::vector<size_t> cells;
   cells.reserve(count);
   for (size_t i = 0; i < store.count(); ++i) {
@@ -189,7 +190,7 @@ SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal, size_t 
         std::min(std::max(store.count() / 2, kFewestSplits), bounding.splits_left() - kept);
     if (most == 0) return SurveyEnd::kEffort;
     if (!bounding.goes_on()) return bounding.ended();
-    bounding.halves(store, chosen_cells(store, scores.cells, most));
+    bounding.halves(store, chosen_cells(store, scores, most));
   }
 }
 
@@ -316,6 +317,10 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
                                   ? std::vector<Goal>{pooled_goal(*options.pooled, pair, areas)}
                                   : goals_of(options, pair, areas, percentiles);
     if (sided) add_signed_goals(*sided, options, areas, goals);
+    std::optional<NormalCells> normals;
+    if (options.normals_within && options.statistics && !pair.a.are_points && !pair.b.are_points)
+      normals.emplace(pair, options, areas, [&] { return bounding.goes_on(); });
+    if (normals && areas.is_positive() && !options.pooled) normals->add_goals(goals);
     const std::optional<Goal> map = map_goal(options, pair, areas);
     refine_map(store, bounding, map, false);
     result.ended = refine_all(store, bounding, goals);
@@ -327,11 +332,12 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     result.cells = store.count();
     if ((options.statistics || options.map) && areas.is_positive()) {
       const double largest = largest_upper(store, pair);
-      const auto whole =
-          std::make_shared<Distribution>(pair, std::move(store), std::move(areas), largest);
+      const auto whole = std::make_shared<Distribution>(pair, std::move(store), areas, largest);
       const SurveyedArea surface{whole->cells(), whole->areas(), percentiles};
       if (options.statistics)
         result.statistics = statistics_of(surface, pair, options, whole->estimates());
+      if (normals && result.statistics)
+        normals->add_figures(whole->cells(), whole->estimates(), *result.statistics);
       if (options.map) result.map = map_of(surface, pair, options, whole->estimates());
       if (result.map && sided) add_sides(sided->of(whole->cells()), *result.map);
       if (result.map && is_cheap)

@@ -63,6 +63,40 @@ class Metrics(unittest.TestCase):
         for row in (r"  hd90_pooled  0\.2\d*", r"  chamfer_l2   0\.1\d*, in \[0\.1\d*, 0\.1\d*\] mm\^2", r"  recall       100 % within 1 mm"):
             self.assertTrue(any(re.match(row, line) for line in rows), f"{row}\n{text}")
 
+    def test_figures_that_are_asked_for_decide_the_code(self):
+        words = ("metrics", "a.obj", "b.obj", "--bands", "0.2abs,0.25abs", "--effort", "2000")
+        self.run_program(*words, code=3)  # so much lies at 0.25
+        answer = json.loads(self.run_program(*words, "--figures", "hd95,assd", "--json").stdout)
+        metrics = answer["metrics"]
+        self.assertEqual((metrics["figures"], metrics["met"]), (["hd_p", "assd"], True))
+        self.assertLessEqual(answer["directions"][0]["counts"]["waves"], 1)
+        self.assertTrue(metrics["hausdorff"]["lower"] <= 0.25 <= metrics["hausdorff"]["upper"])
+        text = self.run_program(*words, "--figures", "hd95,assd").stdout
+        self.assertRegex(text.splitlines()[0], r"^hd95 0\.2\d*, assd 0\.2\d*$")
+        self.assertNotIn("chamfer", text)
+
+    def test_shares_alone_cost_no_more_cells_than_faces_where_these_decide(self):
+        words = ("metrics", "a.obj", "b.obj", "--bands", "0.2abs,0.3abs", "--json", "--figures", "f1")
+        answer = json.loads(self.run_program(*words).stdout)
+        self.assertEqual([direction["survey"]["bounded"] for direction in answer["directions"]], [2, 2])
+        self.assertEqual([at["f1"]["lower"] for at in answer["metrics"]["within"]], [0, 1])
+
+    def test_normals(self):
+        (self.folder / "wall.obj").write_text("v 0 0 -1\nv 0 1 -1\nv 0 1 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n")
+        words = ("--bands", "0.3abs", "--normals", "20deg")
+        metrics = json.loads(self.run_program("metrics", "a.obj", "b.obj", *words, "--json").stdout)["metrics"]
+        self.assertEqual((metrics["normals"], metrics["met"]), (20, True))
+        self.assertTrue(0.99 < metrics["normal_consistency"]["lower"] <= 1 <= metrics["normal_consistency"]["upper"])
+        self.assertEqual(metrics["within"][0]["f1_normals"]["lower"], 1)
+        metrics = json.loads(self.run_program("metrics", "a.obj", "wall.obj", *words, "--json", "--figures", "f1_normals").stdout)["metrics"]
+        self.assertLess(metrics["normal_consistency"]["upper"], 1e-9)
+        self.assertEqual(metrics["within"][0]["f1_normals"]["upper"], 0)
+        text = self.run_program("metrics", "a.obj", "b.obj", *words).stdout
+        self.assertRegex(text, r"(?m)^  f1_normals +100 % within 0\.3 and 20 degrees$")
+        plain = json.loads(self.run_program("metrics", "a.obj", "b.obj", "--bands", "0.3abs", "--json").stdout)["metrics"]
+        self.assertNotIn("normal_consistency", plain)
+        self.assertNotIn("f1_normals", plain["within"][0])
+
     def test_a_jump_is_told(self):
         done = self.run_program("metrics", "a.obj", "b.obj", "--bands", "0.25abs", "--effort", "2000", code=3)
         self.assertIn("not all are as narrow as asked", done.stdout.splitlines()[0])
@@ -78,7 +112,11 @@ class Metrics(unittest.TestCase):
                                   (("a.obj", "b.obj", "--percentile", "0"), 2, "--percentile '0': expected a percentile"),
                                   (("a.obj", "b.obj", "--percentile", "101"), 2, "above 0 and at most 100"),
                                   (("a.obj", "b.obj", "--bands", "0.5"), 2, "--bands"), (("a.obj", "b.obj", "--max", "1abs"), 2, "--max"),
-                                  (("a.obj", "b.obj", "--polygons", "any"), 2, "--polygons any")):
+                                  (("a.obj", "b.obj", "--polygons", "any"), 2, "--polygons any"),
+                                  (("a.obj", "b.obj", "--figures", "hd90"), 2, "--figures 'hd90': expected names of hausdorff, hd_p"),
+                                  (("a.obj", "b.obj", "--figures", "f1"), 2, "--figures f1: give its distances by --bands"),
+                                  (("a.obj", "b.obj", "--figures", "normal_consistency"), 2, "give the angle by --normals"),
+                                  (("a.obj", "b.obj", "--normals", "91"), 2, "--normals '91': expected an angle above 0 and at most 90 degrees")):
             with self.subTest(words):
                 self.assertIn(said, self.run_program("metrics", *words, code=code).stderr)
         for words, said in ((("--max", "1abs", "--metrics"), "leave out --max"), (("--bands", "1abs"), "are of --metrics"), (("--percentile", "90"), "are of --metrics")):
@@ -113,6 +151,19 @@ class Metrics(unittest.TestCase):
             now = (self.folder / "list.jsonl").read_bytes()
             self.assertGreater(len(now), len(before), "another question has another key")
             before = now
+
+    def test_a_batch_has_normals_in_its_columns(self):
+        (self.folder / "turned.csv").write_text("id,a,b\nlifted,a.obj,b.obj\n")
+        self.batch("turned", "--metrics", "--bands", "0.3abs", "--normals", "20")
+        with open(self.folder / "turned_out.csv", newline="") as text:
+            row = next(csv.DictReader(text, strict=True))
+        self.assertEqual(float(row["f1_normals_1"]), 1)
+        self.assertLessEqual(0.99, float(row["normal_consistency_lower"]))
+        line = json.loads((self.folder / "turned.jsonl").read_text())
+        self.assertEqual(line["metrics"]["normals"], 20)
+        before = (self.folder / "turned.jsonl").read_bytes()
+        self.batch("turned", "--metrics", "--bands", "0.3abs", "--normals", "30", "--resume")
+        self.assertGreater(len((self.folder / "turned.jsonl").read_bytes()), len(before), "another angle has another key")
 
     def test_a_batch_tells_what_is_wider(self):
         (self.folder / "jump.csv").write_text("id,a,b\njump,a.obj,b.obj\n")

@@ -50,6 +50,18 @@ class Meshes(unittest.TestCase):
         self.assertEqual(m.result.interval, m.hausdorff)
         self.assertNotIn("metrics", m.result.stats)
 
+    def test_figures_and_normals(self):
+        m = vkh.metrics((SQUARE, FACES), (SQUARE + [0, 0, 0.25], FACES), bands=[0.25, 0.3], figures=["hd95", "normal_consistency"], normals=20)
+        self.assertEqual((m.met, m.unmet), (True, ()), "shares at a jump are not asked for")
+        self.encloses(m.normal_consistency, 1, 0.01)
+        self.assertEqual(tuple(m.f1_normals[0.3]), (1, 1))
+        self.assertIn("f1_normals@0.3", m.to_dict())
+        plain = vkh.metrics((SQUARE, FACES), (SQUARE, FACES))
+        self.assertEqual((plain.normal_consistency, plain.f1_normals), (None, {}))
+        for wrong, error in (({"figures": ["hd90"]}, ValueError), ({"figures": ["f1"]}, ValueError), ({"normals": 0}, ValueError), ({"normals": "20"}, TypeError)):
+            with self.subTest(wrong):
+                self.assertRaises(error, vkh.metrics, (SQUARE, FACES), (SQUARE, FACES), **wrong)
+
     def test_itself(self):
         m = vkh.metrics((SQUARE, FACES), (SQUARE, FACES), bands=[0.1])
         for name in LENGTHS:

@@ -18,6 +18,7 @@ _vkhausdorff() {
     --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
     --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
     --field-by) mapfile -t COMPREPLY < <(compgen -W "cells faces" -- "$current"); return ;;
+    --figures) mapfile -t COMPREPLY < <(compgen -W "hausdorff hd_p hd_p_pooled masd assd rms chamfer_l1 chamfer_l2 nsd precision recall f1 normal_consistency precision_normals recall_normals f1_normals" -- "$current"); return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --polygons) mapfile -t COMPREPLY < <(compgen -W "fan any" -- "$current"); return ;;
@@ -25,15 +26,15 @@ _vkhausdorff() {
     --points) mapfile -t COMPREPLY < <(compgen -W "a b both" -- "$current"); return ;;
     --unit | --unit-a | --unit-b) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
-      --area | --percentile | --bands | --max-distance | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
+      --area | --percentile | --bands | --normals | --max-distance | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
       --part | --known-lower | --levels | --ratio) return ;;
   esac
   case $command in
     distance) options="$search $outputs $files --save-transform --certificate --part --known-lower" ;;
     gate) options="$search $outputs $files --save-transform --certificate --max --worst --area --face-max --face-max-b --junit --github" ;;
-    metrics) options="$search $files --save-transform --percentile --bands --tol --effort --json --verbose --verify" ;;
+    metrics) options="$search $files --save-transform --percentile --bands --figures --normals --tol --effort --json --verbose --verify" ;;
     batch)
-      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed --metrics --percentile --bands $files"
+      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed --metrics --percentile --bands --figures --normals $files"
       options+=" --image-dir --report-dir --effort --max-distance $look --together --lanes --read-ahead" ;;
     simplify) options="$search --json --max --out --one-way --lock-borders --levels --ratio --certificate --unit --max-input --polygons --bodies" ;;
     merge) options="$tables --list --reproducible --help --help-all" ;;

@@ -46,6 +46,8 @@ struct AreaWithin {
   Enclosure share;
   /// So much area lies at this distance, but for what floats leave, that no effort decides more.
   bool jump = false;
+  /// With SurveyOptions::normals_within: the share whose normals agree, too.
+  std::optional<Enclosure> agreeing = {};
 };
 
 /// The least distance that `share` of A's area is within.
@@ -67,6 +69,9 @@ struct Statistics {
   Enclosure mean, rms;      ///< moments of d(x, B) over A
   std::vector<AreaWithin> bands;
   std::vector<Percentile> percentiles;
+  /// With SurveyOptions::normals_within: the mean of the cosines of angles between A's normals and
+  /// those of B's closest faces, whatever their signs; in [0, 1].
+  std::optional<Enclosure> normal_cosine = {};
   /// The whole distribution, for charts: distances that ascend from 0 to the largest upper.
   std::vector<AreaWithin> curve;
 };

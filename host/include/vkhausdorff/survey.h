@@ -59,12 +59,21 @@ struct SurveyOptions {
   /// The share of A's area that may be undecided in each of `bands`.
   double area_tolerance = 0.001;
   std::vector<double> bands;  ///< distances, in the files' units
+  /// If set: the other surface's shares within `bands`. A share is then met when the harmonic mean
+  /// of both is known to area_tolerance, too.
+  std::vector<Enclosure> other_shares = {};
   /// If set: figures and the map are of the part of A within it alone: Statistics::kept, and
   /// CellMap::max_distance. The field, and the distance itself, are of all of A.
   std::optional<Limit> max_distance = {};
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area, 0 to 1
+  bool narrows_percentiles = true;  ///< false: percentiles are enclosed, and have no goal
+  /// With statistics of a surface: also the agreement of normals, of an angle from 0 to 90 degrees.
+  /// Normals are of the corners as the meshes hold them; Mesh::delta is no part of them.
+  std::optional<double> normals_within = {};
+  /// The widths to reach of the mean cosine, and of agreeing shares.
+  double cosine_tolerance = 0.01, agreeing_tolerance = 0.001;
   /// With statistics: result.distribution is wanted, as metrics_of() needs it.
   bool keeps_distribution = false;
   /// If set: the survey goes on with cells of an earlier one, and has this goal alone.

@@ -565,6 +565,10 @@ class Metrics:
     met: bool
     unmet: tuple[str, ...]
     result: Result
+    normal_consistency: Interval | None
+    precision_normals: dict[float | str, Interval]
+    recall_normals: dict[float | str, Interval]
+    f1_normals: dict[float | str, Interval]
     # hd95 and hd95_pooled, by the percentile.
     def __getattr__(self, name: str) -> Interval: ...
     def to_dict(self) -> dict[str, Any]: ...
@@ -594,6 +598,8 @@ def metrics(
     transform: npt.ArrayLike | _Path | None = None,
     scale: bool = False,
     on_progress: _OnProgress | None = None,
+    figures: _Names = (),
+    normals: _Number | None = None,
 ) -> Metrics: ...
 def assert_within(a: _Measured, b: _Measured, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
 def read(path: str | PathLike[str] | npt.NDArray[Any], *, max_input: SupportsIndex | str | None = None,

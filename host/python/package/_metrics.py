@@ -1,6 +1,6 @@
 """Metrics of two surfaces by the names that papers use: vkhausdorff.metrics()."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from vkhausdorff import _core, _masks
@@ -8,6 +8,7 @@ from vkhausdorff._survey import Interval
 
 _LENGTHS = ("hausdorff", "hd_p", "hd_p_pooled", "masd", "assd", "rms", "chamfer_l1", "chamfer_l2")
 _SHARES = ("nsd", "precision", "recall", "f1")
+_SHARES_NORMALS = ("precision_normals", "recall_normals", "f1_normals")
 
 
 @dataclass(frozen=True)
@@ -15,8 +16,10 @@ class Metrics:
     """Figures of two surfaces, each an Interval with an estimate. Lengths are in the coordinates' unit, chamfer_l2 squared.
 
     percentile: of hd_p and hd_p_pooled, which are also called by it: hd95, hd95_pooled. nsd, precision, recall and f1 are
-    {distance as it was given: Interval} of shares, from 0 to 1, for each of bands. met: whether all are as narrow as they
-    are to be; unmet: the names of those that are not. result: the Result of both directions that they were made of.
+    {distance as it was given: Interval} of shares, from 0 to 1, for each of bands. With normals=, normal_consistency is an
+    Interval, and precision_normals, recall_normals and f1_normals are of area whose normals agree, too; otherwise they are
+    None and empty. met: whether all that are asked for are as narrow as they are to be; unmet: the names of those that are
+    not. result: the Result of both directions that they were made of.
     """
 
     percentile: float
@@ -35,6 +38,10 @@ class Metrics:
     met: bool
     unmet: tuple[str, ...]
     result: Any
+    normal_consistency: Any = None
+    precision_normals: dict[Any, Interval] = field(default_factory=dict)
+    recall_normals: dict[Any, Interval] = field(default_factory=dict)
+    f1_normals: dict[Any, Interval] = field(default_factory=dict)
 
     __hash__ = None
 
@@ -47,7 +54,9 @@ class Metrics:
         """Each figure with its name and its Interval; shares with their distance."""
         for name in _LENGTHS:
             yield name.replace("_p", f"{self.percentile:g}", 1) if name.startswith("hd_p") else name, getattr(self, name)
-        for name in _SHARES:
+        if self.normal_consistency is not None:
+            yield "normal_consistency", self.normal_consistency
+        for name in _SHARES + _SHARES_NORMALS:
             for distance, interval in getattr(self, name).items():
                 yield f"{name}@{distance}", interval
 
@@ -77,26 +86,28 @@ Metrics.__module__ = "vkhausdorff"
 
 def _made(result):
     found = result.stats.pop("metrics")
-    shares = {name: {} for name in _SHARES}
-    unmet = [name for name, (_, met) in found["lengths"].items() if not met]
+    shares = {name: {} for name in _SHARES + _SHARES_NORMALS}
+    asked = found["figures"] or [*_LENGTHS, "normal_consistency", *shares]
+    unmet = [name for name, (_, met) in found["lengths"].items() if not met and name in asked]
     for distance, figures in found["within"]:
         for name, (bounds, met) in figures.items():
             shares[name][distance] = Interval(*bounds)
-            unmet += [] if met else [f"{name}@{distance}"]
+            unmet += [] if met or name not in asked else [f"{name}@{distance}"]
     lengths = {name: Interval(*bounds) for name, (bounds, _) in found["lengths"].items()}
     return Metrics(percentile=found["percentile"], **lengths, **shares, met=not unmet, unmet=tuple(unmet), result=result)
 
 
 def metrics(a, b, *, percentile=95, bands=(), spacing=None, affine=None, tol=1e-6, device="", time=None, waves=None, memory=None,
             disable=(), progress=None, enable=(), preset="", effort=None, survey_time=None, unit_a=None, unit_b=None,
-            transform=None, scale=False, on_progress=None):
+            transform=None, scale=False, on_progress=None, figures=(), normals=None):
     """Encloses the figures of two surfaces that papers report: HD95, ASSD, Chamfer distances, surface Dice, F-scores.
 
     a, b: meshes, as distance() takes them; or two masks on one grid, arrays of three dimensions that are not 0 where the
     label is, whose surfaces are the faces of voxels between label and not-label. percentile: of hd_p. bands: distances in
     the coordinates' unit, or strings such as '0.5%' of A's diagonal: the shares of area within each are nsd (of both),
     precision (of A), recall (of B) and f1. spacing: of masks, the sizes of a voxel, 1 by default; or affine: four rows that
-    map the number of a voxel's middle to space, as NIfTI's. The rest is as in distance(). Returns Metrics. ValueError if
+    map the number of a voxel's middle to space, as NIfTI's. figures: names such as 'f1' or 'hd95' that alone are sought,
+    which takes less time; all by default. normals: degrees, for figures of normals that agree to so many. The rest is as in distance(). Returns Metrics. ValueError if
     a surface has no area.
     """
     if _masks.is_mask(a) or _masks.is_mask(b):
@@ -106,4 +117,4 @@ def metrics(a, b, *, percentile=95, bands=(), spacing=None, affine=None, tol=1e-
     return _made(_core._metrics(a, b, percentile=percentile, bands=bands, tol=tol, device=device, time=time, waves=waves,
                                 memory=memory, disable=disable, progress=progress, enable=enable, preset=preset, effort=effort,
                                 survey_time=survey_time, unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale,
-                                on_progress=on_progress))
+                                on_progress=on_progress, figures=figures, normals=normals))
