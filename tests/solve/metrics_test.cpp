@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,8 @@
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/asking.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/length.h"
 
 namespace {
 
@@ -44,8 +47,10 @@ Measured measured(const Mesh& a, const Mesh& b, SurveyOptions options) {
 }
 
 Metrics metrics_between(const Mesh& a, const Mesh& b, double percentile, std::vector<double> bands,
-                        std::optional<size_t> effort = {}) {
+                        std::optional<size_t> effort = {}, std::optional<double> normals = {}) {
   SurveyOptions options;
+  options.normals_within = normals;
+  options.agreeing_tolerance = options.area_tolerance;
   options.percentiles = {percentile / 100};
   options.area_tolerance = MetricsOptions::kShareTolerance / 2;
   options.bands = std::move(bands);
@@ -53,7 +58,8 @@ Metrics metrics_between(const Mesh& a, const Mesh& b, double percentile, std::ve
   const Measured m = measured(a, b, options);
   REQUIRE(m.a.distribution);
   REQUIRE(m.b.distribution);
-  return metrics_of({percentile}, {m.distance.a_to_b, *m.a.statistics, *m.a.distribution},
+  return metrics_of({.percentile = percentile, .normals = normals},
+                    {m.distance.a_to_b, *m.a.statistics, *m.a.distribution},
                     {m.distance.b_to_a, *m.b.statistics, *m.b.distribution});
 }
 
@@ -157,6 +163,7 @@ TEST_CASE("two parallel patches: every length is their distance") {
   CHECK(encloses(m.chamfer_l1.value, 0.5));
   CHECK(encloses(m.chamfer_l2.value, 0.125));
   for (const NamedShare& share : kNamedShares) {
+    if (share.of_normals) continue;
     CHECK((m.within[0].*share.figure).value.upper == 0);
     CHECK((m.within[1].*share.figure).value.lower == 1);
   }
@@ -174,11 +181,13 @@ TEST_CASE("a surface and itself: every length is 0 and every share 1, exactly") 
   const Metrics m = metrics_between(a, a, 95, {1e-3});
   CHECK(m.is_met());
   for (const NamedMetric& metric : kNamedMetrics) {
+    if (metric.of_normals) continue;
     CAPTURE(metric.name);
     CHECK((m.*metric.figure).value.lower == 0);
     CHECK((m.*metric.figure).value.upper == 0);
   }
   for (const NamedShare& share : kNamedShares) {
+    if (share.of_normals) continue;
     CHECK((m.within[0].*share.figure).value.lower == 1);
     CHECK((m.within[0].*share.figure).value.upper == 1);
   }
@@ -190,6 +199,10 @@ TEST_CASE("a surface and itself: every length is 0 and every share 1, exactly") 
 struct Even {
   double most = 0, area = 0;
   bool is_flat = false;
+  double slope = 0;  // of its normals to those of the other surface
+
+  bool agrees(double degrees) const { return std::atan(slope) * 180 / std::numbers::pi <= degrees; }
+  double cosine() const { return 1 / std::sqrt(1 + slope * slope); }
 
   double within(double t) const {
     if (is_flat) return t >= most ? 1 : 0;
@@ -215,6 +228,12 @@ struct Distributed {
   }
   double within(double t) const {
     return mean_of([&](const Even& part) { return part.within(t); });
+  }
+  double agreeing(double t, double degrees) const {
+    return mean_of([&](const Even& part) { return part.agrees(degrees) ? part.within(t) : 0.0; });
+  }
+  double cosine() const {
+    return mean_of([](const Even& part) { return part.cosine(); });
   }
   double mean() const {
     return mean_of([](const Even& part) { return part.mean(); });
@@ -271,8 +290,8 @@ void add_wedge(Random& random, double slope, double offset, DistributedPair& pai
   const glm::dvec3 from{offset, 0, 0};
   pair.a = joined(pair.a, sheet(from, {length, s * length}, width, few(random), few(random)));
   pair.b = joined(pair.b, sheet(from, {length * (1 + s * s), 0}, width, few(random), few(random)));
-  pair.of_a.parts.push_back({s * length, length * root * width});
-  pair.of_b.parts.push_back({s * length * root, length * (1 + s * s) * width});
+  pair.of_a.parts.push_back({s * length, length * root * width, false, s});
+  pair.of_b.parts.push_back({s * length * root, length * (1 + s * s) * width, false, s});
 }
 
 // Two equal rectangles at a height: one distance everywhere.
@@ -305,6 +324,8 @@ DistributedPair distributed_pair(Random& random) {
   return pair;
 }
 
+double harmonic(double x, double y) { return x + y > 0 ? 2 * x * y / (x + y) : 0; }
+
 // Counts the figures that do not enclose the truth.
 int violations(const Metrics& m, const Distributed& a, const Distributed& b, double share) {
   Distributed both = a;
@@ -332,8 +353,14 @@ int violations(const Metrics& m, const Distributed& a, const Distributed& b, dou
     check(at.nsd, both.within(at.distance), "nsd");
     check(at.precision, precision, "precision");
     check(at.recall, recall, "recall");
-    check(at.f1, precision + recall > 0 ? 2 * precision * recall / (precision + recall) : 0, "f1");
+    check(at.f1, harmonic(precision, recall), "f1");
+    const double own = a.agreeing(at.distance, *m.normals);
+    const double others = b.agreeing(at.distance, *m.normals);
+    check(at.precision_normals, own, "precision_normals");
+    check(at.recall_normals, others, "recall_normals");
+    check(at.f1_normals, harmonic(own, others), "f1_normals");
   }
+  check(m.normal_consistency, (a.cosine() + b.cosine()) / 2, "normal_consistency");
   return wrong;
 }
 
@@ -351,7 +378,8 @@ TEST_CASE("generated pairs with exact distributions: every figure is enclosed") 
     const DistributedPair pair = distributed_pair(random);
     const double percentile = 50 + 49 * random.unit();
     const double t = 0.05 + 0.4 * random.unit();
-    const Metrics m = metrics_between(pair.a, pair.b, percentile, {t}, 20000);
+    const double degrees = 5 + 80 * random.unit();
+    const Metrics m = metrics_between(pair.a, pair.b, percentile, {t}, 20000, degrees);
     wrong += violations(m, pair.of_a, pair.of_b, percentile / 100);
     const bool is_even = std::none_of(pair.of_a.parts.begin(), pair.of_a.parts.end(),
                                       [](const Even& part) { return part.is_flat; });
@@ -374,7 +402,8 @@ Answer answered(const Mesh& a, const Mesh& b, double percentile = 95) {
 }
 
 Metrics metrics_in(const Measured& m, double percentile) {
-  return metrics_of({percentile}, {m.distance.a_to_b, *m.a.statistics, *m.a.distribution},
+  return metrics_of({.percentile = percentile},
+                    {m.distance.a_to_b, *m.a.statistics, *m.a.distribution},
                     {m.distance.b_to_a, *m.b.statistics, *m.b.distribution});
 }
 
@@ -432,6 +461,36 @@ TEST_CASE("a question for metrics is of both directions, and its code is whether
   CHECK(answer.metrics->is_met());
   CHECK(code_of(answer) == kExitClosed);
   CHECK(to_json(answer_from_json(to_json(answer))) == to_json(answer));
+}
+
+TEST_CASE("figures that are asked for alone decide, take fewer cells, and enclose the same") {
+  const Mesh a = noisy(icosphere(1.0, 3), 0.02, 5), b = icosphere(1.0, 3);
+  const auto asked = [&](std::vector<std::string> figures) {
+    Question question;
+    question.metrics.emplace().figures = std::move(figures);
+    question.bands = {parse_length("--bands", "0.01abs", PlainNumber::kRefused)};
+    Solver* const on[] = {&solver()};
+    return Asking(question, std::make_shared<const Mesh>(a), std::make_shared<const Mesh>(b), on)
+        .answer();
+  };
+  const Answer all = asked({}), alone = asked({"f1"});
+  CHECK(alone.metrics->is_met());
+  CHECK(code_of(alone) == kExitClosed);
+  CHECK(alone.survey_a->bounded + alone.survey_b->bounded <
+        all.survey_a->bounded + all.survey_b->bounded);
+  for (const NamedMetric& metric : kNamedMetrics) {
+    if (metric.of_normals) continue;
+    const Enclosure& x = ((*all.metrics).*metric.figure).value;
+    const Enclosure& y = ((*alone.metrics).*metric.figure).value;
+    CAPTURE(metric.name);
+    CHECK(x.lower <= y.upper);
+    CHECK(y.lower <= x.upper);
+  }
+  const Enclosure &x = all.metrics->within[0].f1.value, &y = alone.metrics->within[0].f1.value;
+  CHECK(x.lower <= y.upper);
+  CHECK(y.lower <= x.upper);
+  CHECK(to_json(answer_from_json(to_json(alone))) == to_json(alone));
+  CHECK_THROWS_AS(asked({"normal_consistency"}), UsageError);
 }
 
 TEST_CASE("a mesh without area is refused") {
