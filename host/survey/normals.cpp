@@ -111,9 +111,28 @@ std::array<bool, 3> closest_feature(const PlacedCell& at, const Corners3& triang
   return {};
 }
 
+// As distance_below(): with g = q / |q| for any q the triangle's least corner along g is at least
+// so far from the cell's farthest. Both products are off by 8 kRound of their lengths, a corner of
+// the cell by sqrt(3) `off`, and |g| is at most 1 + 4 kRound.
+double separation(const PlacedCell& at, const glm::dvec3& centre, const Corners3& triangle) {
+  const FromPoint seen = seen_from(centre, triangle), own = seen_from(centre, at.corners);
+  const glm::dvec3 q = nearest_to_origin(seen);
+  const double size = std::sqrt(glm::dot(q, q));
+  if (!(size > 1e-140)) return 0;
+  const glm::dvec3 g = q / size;
+  const auto along = [&](const glm::dvec3& p) { return glm::dot(g, p); };
+  const double least =
+      std::min({along(seen.corners[0]), along(seen.corners[1]), along(seen.corners[2])});
+  const double most =
+      std::max({along(own.corners[0]), along(own.corners[1]), along(own.corners[2])});
+  const double error = 16 * kRound * (seen.reach + own.reach) + 2 * at.off;
+  return std::max(least - most - error, 0.0) * (1 - 8 * kRound);
+}
+
 Normals::Normals(const SurveyedPair& pair)
     : a_(pair.a),
       b_(pair.b),
+      displacement_(pair.displacement),
       vertices_(scaled_of(pair.a, pair.frame)),
       faces_(corners_of_faces(pair.b, scaled_of(pair.b, pair.frame))),
       tree_(faces_, numbers_below(faces_.size())),
@@ -137,18 +156,21 @@ double Normals::distance_up(const glm::dvec3& p, uint32_t hint) const {
 }
 
 // Finds all faces that may be closest somewhere on the cell. Returns whether they are few enough to
-// look at.
-bool Normals::find_near(const gpu::Cell& cell, uint32_t hint, std::vector<NearFace>& found) const {
+// look at. No point of the cell is farther from B than `most`, and so from its closest face.
+bool Normals::find_near(const gpu::Cell& cell, const gpu::CellBounds& bounds,
+                        std::vector<NearFace>& found) const {
   constexpr size_t kMostFaces = 128;
-  const CellBall ball = ball_of(placed_cell(corners_of_a(cell.face), cell),
-                                [&](const glm::dvec3& p) { return distance_up(p, hint); });
-  return tree_.walk(
-      [&](const TriangleBox& box) { return ball.may_hold(box); },
-      [&](uint32_t face) {
-        if (!ball.may_hold(faces_[face])) return true;
-        found.push_back({face, cosine_of(normals_of_a_[cell.face], normals_of_b_[face])});
-        return found.size() <= kMostFaces;
-      });
+  const PlacedCell at = placed_cell(corners_of_a(cell.face), cell);
+  const CellBall ball =
+      ball_of(at, [&](const glm::dvec3& p) { return distance_up(p, bounds.face); });
+  const double most = (static_cast<double>(bounds.highest) + displacement_) * (1 + 8 * kRound);
+  const auto look = [&](uint32_t face) {
+    const Corners3& triangle = faces_[face];
+    if (!ball.may_hold(triangle) || separation(at, ball.centre, triangle) > most) return true;
+    found.push_back({face, cosine_of(normals_of_a_[cell.face], normals_of_b_[face])});
+    return found.size() <= kMostFaces;
+  };
+  return tree_.walk([&](const TriangleBox& box) { return ball.may_hold(box); }, look);
 }
 
 // Whether a face of B has all those corners of another one.
@@ -174,10 +196,10 @@ double Normals::excused(const PlacedCell& at, const NearFace& one,
   return best;
 }
 
-Enclosure Normals::of(const gpu::Cell& cell, uint32_t hint) const {
+Enclosure Normals::of(const gpu::Cell& cell, const gpu::CellBounds& bounds) const {
   constexpr double kNarrow = 1e-3;
   std::vector<NearFace> near;
-  if (!find_near(cell, hint, near)) return {0, 1};
+  if (!find_near(cell, bounds, near) || near.empty()) return {0, 1};
   Enclosure cosine{1, 0};
   for (const NearFace& one : near) cosine.upper = std::max(cosine.upper, one.cosine.upper);
   const PlacedCell at = placed_cell(corners_of_a(cell.face), cell);
@@ -215,7 +237,7 @@ bool NormalCells::look_at(const CellStore& cells) {
   }
   return each_while(open.size(), goes_on_, [&](size_t k) {
     const gpu::Cell& cell = cells.cell(open[k]);
-    known_[open[k]] = {normals_.of(cell, cells.bounds(open[k]).face), cell.corners, true};
+    known_[open[k]] = {normals_.of(cell, cells.bounds(open[k])), cell.corners, true};
   });
 }
 

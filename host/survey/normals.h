@@ -33,8 +33,8 @@ class Normals {
   /// Keeps references to the pair's meshes, which are surfaces.
   explicit Normals(const SurveyedPair& pair);
 
-  /// Encloses c(x) over a cell. `hint`: a face of B, or any other number.
-  Enclosure of(const gpu::Cell& cell, uint32_t hint) const;
+  /// Encloses c(x) over a cell with these bounds.
+  Enclosure of(const gpu::Cell& cell, const gpu::CellBounds& bounds) const;
   /// |cos| between the cell's normal and that of one face of B, which proves nothing.
   double likely(const gpu::Cell& cell, uint32_t face) const;
 
@@ -46,16 +46,22 @@ class Normals {
 
   Corners3 corners_of_a(uint32_t face) const;
   double distance_up(const glm::dvec3& p, uint32_t hint) const;
-  bool find_near(const gpu::Cell& cell, uint32_t hint, std::vector<NearFace>& found) const;
+  bool find_near(const gpu::Cell& cell, const gpu::CellBounds& bounds,
+                 std::vector<NearFace>& found) const;
   double excused(const PlacedCell& at, const NearFace& one, const std::vector<NearFace>& all) const;
   bool has_corners(uint32_t face, const std::array<bool, 3>& which, uint32_t of) const;
 
   const Mesh &a_, &b_;
+  const double displacement_;
   std::vector<glm::dvec3> vertices_;  // A's, scaled
   std::vector<Corners3> faces_;       // B's, scaled
   TriangleTree tree_;
   std::vector<UnitNormal> normals_of_a_, normals_of_b_;
 };
+
+/// Below the distance between any point of a cell and any point of a triangle. `centre`: any point,
+/// the cell's best.
+double separation(const PlacedCell& at, const glm::dvec3& centre, const Corners3& triangle);
 
 /// The corners of a triangle on which its closest point lies for all points of a cell: one corner,
 /// or an edge's two; none, if that is not certain.

@@ -111,6 +111,40 @@ TEST_CASE("a feature on which the closest point lies is one in exact arithmetic"
   CHECK(edges > 1000);
 }
 
+TEST_CASE("a separation is below the distance of any two points") {
+  Random random(93);
+  int apart = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Corners3 t = any_triangle(random);
+    PlacedCell cell{};
+    cell.corners = any_triangle(random);
+    if (i % 2 == 0) {
+      for (glm::dvec3& p : cell.corners) p = t[0] + (p - cell.corners[0]) * 1.5;
+    }
+    cell.off = off_at(cell.corners);
+    const glm::dvec3 centre = (cell.corners[0] + cell.corners[1] + cell.corners[2]) * (1.0 / 3);
+    const mpq_class least(separation(cell, centre, t));
+    apart += least > 0 ? 1 : 0;
+    for (int k = 0; k < 8; ++k) {
+      const auto inside = [&](const Corners3& of) {
+        const mpq_class u(random.unit()), v = (1 - u) * mpq_class(k % 2 == 0 ? 0 : random.unit());
+        const Exact3 a = exact(of[0]), e = minus(exact(of[1]), a), f = minus(exact(of[2]), a);
+        return Exact3{a[0] + u * e[0] + v * f[0], a[1] + u * e[1] + v * f[1],
+                      a[2] + u * e[2] + v * f[2]};
+      };
+      const Exact3 d = minus(inside(cell.corners), inside(t));
+      REQUIRE(least * least <= dot(d, d));
+    }
+    for (const glm::dvec3& p : cell.corners) {
+      for (const glm::dvec3& q : t) {
+        const Exact3 d = minus(exact(p), exact(q));
+        REQUIRE(least * least <= dot(d, d));
+      }
+    }
+  }
+  CHECK(apart > 5000);
+}
+
 TEST_CASE("cosines of angles: 60 degrees is a half, and all agree to 90") {
   const Enclosure half = cosine_of_degrees(60);
   CHECK(half.lower <= 0.5);
