@@ -124,21 +124,25 @@ void check_area(const Question& question, const Mesh& mesh) {
          "a surface, of which --area " + question.area_requested + " asks a share");
 }
 
-// Refuses figures of distances that are not given, and of normals without their angle.
+// Refuses a figure of distances that are not given, or of normals without their angle, and a name
+// that is none.
+void check_figure(const Question& question, const std::string& figure) {
+  const std::string option = question.option("figures") + " " + figure;
+  const auto is_it = [&](const auto& named) { return figure == named.name; };
+  const auto metric = std::find_if(kNamedMetrics.begin(), kNamedMetrics.end(), is_it);
+  const auto share = std::find_if(kNamedShares.begin(), kNamedShares.end(), is_it);
+  const bool is_share = share != kNamedShares.end();
+  if (!is_share && metric == kNamedMetrics.end())
+    throw UsageError(option + ": expected names of " + names_of_figures());
+  if (is_share && question.bands.empty())
+    throw UsageError(option + ": give its distances by " + question.option("bands"));
+  if ((is_share ? share->of_normals : metric->of_normals) && !question.metrics->normals)
+    throw UsageError(option + ": give the angle by " + question.option("normals"));
+}
+
 void check_figures(const Question& question) {
   if (!question.metrics) return;
-  for (const std::string& figure : question.metrics->figures) {
-    const auto is_it = [&](const auto& named) { return figure == named.name; };
-    const auto metric = std::find_if(kNamedMetrics.begin(), kNamedMetrics.end(), is_it);
-    const auto share = std::find_if(kNamedShares.begin(), kNamedShares.end(), is_it);
-    if (share != kNamedShares.end() && question.bands.empty())
-      throw UsageError(question.option("figures") + " " + figure + ": give its distances by " +
-                       question.option("bands"));
-    const bool of_normals = share != kNamedShares.end() ? share->of_normals : metric->of_normals;
-    if (of_normals && !question.metrics->normals)
-      throw UsageError(question.option("figures") + " " + figure + ": give the angle by " +
-                       question.option("normals"));
-  }
+  for (const std::string& figure : question.metrics->figures) check_figure(question, figure);
 }
 
 // Refuses what a surface alone has.

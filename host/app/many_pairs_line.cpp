@@ -156,7 +156,7 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   line.question = question_of(of_pairs, words, "batch");
   line.question.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
   line.question.statistics = line.question.is_signed;  // a line of results has figures
-  // Figures that are not met by then are few, and would take most of the time (docs/metrics.md).
+  // A few pairs that need more would take most of the list's time (docs/log/measurements.md).
   constexpr uint64_t kEffortOfMetrics = 1'000'000;
   if (line.question.metrics && !line.question.effort) line.question.effort = kEffortOfMetrics;
   BatchAsked& batch = line.batch;

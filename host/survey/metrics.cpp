@@ -243,20 +243,31 @@ std::string names_of_figures() {
   return names;
 }
 
+namespace {
+
+// The name of a figure in the tables, or none.
+std::string name_in_tables(const std::string& name, double percentile) {
+  for (const NamedMetric& metric : kNamedMetrics) {
+    if (name == metric.name || name == name_of(metric, percentile)) return metric.name;
+  }
+  for (const NamedShare& share : kNamedShares) {
+    if (name == share.name) return name;
+  }
+  return "";
+}
+
+[[noreturn]] void refuse_figure(const std::string& option, const std::string& name) {
+  throw UsageError(option + " '" + name + "': expected names of " + names_of_figures());
+}
+
+}  // namespace
+
 std::vector<std::string> checked_figures(const std::string& option,
                                          const std::vector<std::string>& names, double percentile) {
   std::vector<std::string> known;
   for (const std::string& name : names) {
-    std::string found;
-    for (const NamedMetric& metric : kNamedMetrics) {
-      if (name == metric.name || name == name_of(metric, percentile)) found = metric.name;
-    }
-    for (const NamedShare& share : kNamedShares) {
-      if (name == share.name) found = name;
-    }
-    if (found.empty())
-      throw UsageError(option + " '" + name + "': expected names of " + names_of_figures());
-    known.push_back(found);
+    known.push_back(name_in_tables(name, percentile));
+    if (known.back().empty()) refuse_figure(option, name);
   }
   return known;
 }

@@ -131,7 +131,6 @@ double separation(const PlacedCell& at, const glm::dvec3& centre, const Corners3
 
 Normals::Normals(const SurveyedPair& pair)
     : a_(pair.a),
-      b_(pair.b),
       displacement_(pair.displacement),
       vertices_(scaled_of(pair.a, pair.frame)),
       faces_(corners_of_faces(pair.b, scaled_of(pair.b, pair.frame))),

@@ -51,7 +51,7 @@ class Normals {
   double excused(const PlacedCell& at, const NearFace& one, const std::vector<NearFace>& all) const;
   bool has_corners(uint32_t face, const std::array<bool, 3>& which, uint32_t of) const;
 
-  const Mesh &a_, &b_;
+  const Mesh& a_;
   const double displacement_;
   std::vector<glm::dvec3> vertices_;  // A's, scaled
   std::vector<Corners3> faces_;       // B's, scaled

@@ -491,6 +491,7 @@ TEST_CASE("figures that are asked for alone decide, take fewer cells, and enclos
   CHECK(y.lower <= x.upper);
   CHECK(to_json(answer_from_json(to_json(alone))) == to_json(alone));
   CHECK_THROWS_AS(asked({"normal_consistency"}), UsageError);
+  CHECK_THROWS_AS(asked({"hd95"}), UsageError);
 }
 
 TEST_CASE("a mesh without area is refused") {
