@@ -9,7 +9,7 @@
 
 namespace vkh {
 
-/// Keeps the cells: 120 bytes for each two. It refers to the mesh A of the pair, which must outlive
+/// Keeps the cells: 120 bytes for each. It refers to the mesh A of the pair, which must outlive
 /// it.
 class Distribution {
  public:

@@ -124,7 +124,9 @@ class Fields(unittest.TestCase):
         runs = [vkh.distance(*pair, field=1e-9, statistics=True, effort=20001) for _ in range(2)]
         for r in runs:
             self.assertEqual((r.survey.ended, r.survey.met, r.survey.stats["effort"]), ("effort", False, 20001))
-            self.assertEqual((r.survey.stats["bounded"], r.survey.stats["cells"]), (3200 + 20000, 3200 + 10000))
+            self.assertEqual(r.survey.stats["bounded"], 3200 + 20000)
+            # Two bounds add one cell, or four of them three, where halves are halved without bounds.
+            self.assertTrue(3200 + 10000 <= r.survey.stats["cells"] <= 3200 + 15000)
         plain = [r.survey.to_dict() for r in runs]
         for one in plain:
             del one["stats"]

@@ -90,8 +90,8 @@ struct SurveyOptions {
   std::optional<SidedLimits> sided = {};
   /// No distance is above it, in the files' units.
   double upper = std::numeric_limits<double>::infinity();
-  /// The number of cells that the device may bound besides each face once: two for each split.
-  /// Unset: default_effort(). The host needs 120 bytes for each two of them.
+  /// The number of cells that the device may bound besides each face once. Unset:
+  /// default_effort(). The host needs 60 to 90 bytes for each of them.
   std::optional<size_t> effort = {};
   /// The limit for the survey alone. A survey that it ends differs from run to run. Where sides are
   /// wanted, cells are split in the first 70 % of it, so that there is time to find them.
