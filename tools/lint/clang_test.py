@@ -1,8 +1,8 @@
 """Clang reads the product without a warning, room by room as it is compiled (cmake/Unity.cmake).
 
 usage: clang_test.py BUILD SOURCE [--all | --libcxx]. --all: each source by itself, those of tests and tools,
-too. --libcxx: the whole tree with LLVM's C++ library, and extensions of GNU's are errors. Exit code 77: no clang
-here.
+too. --libcxx: the whole tree with LLVM's C++ library, and extensions of GNU's are errors, but for two files with CGAL.
+Exit code 77: no clang here.
 """
 
 import concurrent.futures
@@ -17,7 +17,7 @@ import sys
 import alone
 
 LIBCXX = ("-stdlib=libc++", "-fexperimental-library")  # std::stop_token
-STRICT = ("-Wgnu", "-pedantic-errors")
+STRICT = ("-Wgnu", "-pedantic-errors", "-Wno-keyword-macro")  # the model's tests make float another type (lib_device.h)
 PRODUCT = ("CMakeFiles", "host", "check", "examples")  # the engine and the checker are targets of the top folder
 # Options that clang does not have.
 OURS = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-subobject-linkage", "--param=inline-unit-growth=400")
@@ -59,6 +59,11 @@ def folder_of(entry: dict) -> str:
     return words[words.index("-o") + 1].split("/")[0]
 
 
+def needs_cgal(entry: dict) -> bool:
+    """Clang 19 refuses CGAL's headers of Debian 12 (boost/graph/iterator.h), and its C++ library Boost's (container_hash/hash.hpp)."""
+    return "#include <CGAL/" in pathlib.Path(entry["file"]).read_text()
+
+
 def check(entry: dict, compilers: dict) -> str:
     done = subprocess.run(command_of(entry, compilers), cwd=entry["directory"], capture_output=True, text=True)
     return done.stderr if done.returncode else ""
@@ -77,7 +82,7 @@ def main() -> int:
     entries = json.loads((build / "compile_commands.json").read_text())
     # Embedded kernels are arrays of numbers, and those of the build folder.
     entries = [e for e in entries if "generated" not in e["file"] and (every or folder_of(e) in PRODUCT)]
-    unique = list({e["file"]: e for e in entries}.values())
+    unique = list({e["file"]: e for e in entries if not (is_libcxx and needs_cgal(e))}.values())
     if len(unique) < (200 if every else 20):
         print(f"clang_test: {build} compiles {len(unique)} files of {source}: too few to be all")
         return 1
