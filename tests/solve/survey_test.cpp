@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <initializer_list>
 #include <vector>
 
 #include "host/base/parallel.h"
@@ -404,7 +405,7 @@ TEST_CASE("threads and the sizes of batches change no bit, and no cell that is a
   CHECK(first.asked.size() == 200000);
   CHECK(first.result.cells > 3 * kBlock);
   size_t sizes = 0;
-  for (const size_t threads : {1, 2, 7}) {
+  for (const size_t threads : std::initializer_list<size_t>{1, 2, 7}) {
     const Threads limit(threads);
     for (const double submission_ms : {1e-9, 0.05, 1e9}) {
       CAPTURE(threads);
@@ -429,7 +430,7 @@ TEST_CASE("a device's survey is the same with other threads and other batches") 
   const SurveyResult first = surveyed(a, b, options);
   CHECK(first.ended == SurveyEnd::kEffort);
   CHECK(first.cells > kBlock);
-  for (const size_t threads : {2, 7}) {
+  for (const size_t threads : std::initializer_list<size_t>{2, 7}) {
     const Threads limit(threads);
     options.submission_ms = threads == 2 ? 1 : 1000;
     check_same(first, surveyed(a, b, options));
@@ -440,7 +441,7 @@ TEST_CASE("the effort is what is bounded besides the faces, or one less") {
   const Mesh a = lifted_roof();
   SurveyOptions options = all_of_it();
   options.face_tolerance = options.mean_tolerance = 1e-6;
-  for (const size_t effort : {0, 1, 2, 999, 1000, 20001}) {
+  for (const size_t effort : std::initializer_list<size_t>{0, 1, 2, 999, 1000, 20001}) {
     CAPTURE(effort);
     options.effort = effort;
     const OnPlane r = on_plane(a, options);

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <initializer_list>
 #include <vector>
 
 namespace {
@@ -84,14 +85,14 @@ TEST_CASE("both directions, surveys and certificates count the same") {
   all.take(true);
   CHECK(all.last.fraction == doctest::Approx(2.0 / 6));
   for (const bool back : {false, true}) {
-    for (const size_t count : {1, 50, 100, 1000, 10100}) {
+    for (const size_t count : std::initializer_list<size_t>{1, 50, 100, 1000, 10100}) {
       all.meter.hear_cells({.back = back, .count = count, .faces = 100, .effort = 10000});
       all.check();
     }
     CHECK(all.last.fraction == doctest::Approx(back ? 4.0 / 6 : 3.0 / 6));
   }
   all.take(true);
-  for (const size_t count : {0, 100, 100000}) {
+  for (const size_t count : std::initializer_list<size_t>{0, 100, 100000}) {
     all.meter.hear_leaves({.count = count, .faces = 100});
     all.check();
     CHECK(all.last.fraction < 5.0 / 6);

@@ -16,7 +16,8 @@ import sys
 
 import alone
 
-LIBCXX = ("-stdlib=libc++", "-fexperimental-library")  # std::stop_token
+# std::stop_token; and std::unary_function, which Boost's hash of Debian 12 derives from
+LIBCXX = ("-stdlib=libc++", "-fexperimental-library", "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION")
 STRICT = ("-Wgnu", "-pedantic-errors", "-Wno-keyword-macro")  # the model's tests make float another type (lib_device.h)
 PRODUCT = ("CMakeFiles", "host", "check", "examples")  # the engine and the checker are targets of the top folder
 # Options that clang does not have.
@@ -60,7 +61,7 @@ def folder_of(entry: dict) -> str:
 
 
 def needs_cgal(entry: dict) -> bool:
-    """Clang 19 refuses CGAL's headers of Debian 12 (boost/graph/iterator.h), and its C++ library Boost's (container_hash/hash.hpp)."""
+    """Clang 19 refuses CGAL's headers of Debian 12 (boost/graph/iterator.h)."""
     return "#include <CGAL/" in pathlib.Path(entry["file"]).read_text()
 
 
