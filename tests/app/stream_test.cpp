@@ -6,6 +6,7 @@
 #include <atomic>
 #include <map>
 #include <mutex>
+#include <thread>
 
 #include "host/answer/session.h"
 #include "host/solve/budget.h"
