@@ -10,9 +10,10 @@ namespace vkh {
 namespace {
 
 /// The margin that lets `gate`, whose tolerance is 1e-7 of a diagonal, decide in any later run: the
-/// distance is farther than that from the limit. A small limit keeps all but a thousandth.
+/// distance is farther than that from the limit. A limit under 8e-7 of the diagonal keeps a half,
+/// and a gate may want a tolerance of its own there.
 double without_margin(double within, double diagonal) {
-  constexpr double kOfDiagonal = 4e-7, kOfLimit = 1e-3;
+  constexpr double kOfDiagonal = 4e-7, kOfLimit = 0.5;
   return within - std::min(kOfDiagonal * diagonal, kOfLimit * within);
 }
 

@@ -228,9 +228,8 @@ PairStream::PairStream(StreamOptions options, std::function<void(StreamResult&&)
 PairStream::~PairStream() = default;
 
 bool PairStream::push(StreamPair pair) {
-  std::optional<FramedPair> framed = framed_early(pair);
-  if (impl_->queue.put({.pair = std::move(pair), .tries = 0, .framed = std::move(framed)}))
-    return true;
+  const std::optional<FramedPair> framed = framed_early(pair);
+  if (impl_->queue.put({.pair = std::move(pair), .tries = 0, .framed = framed})) return true;
   impl_->check_alive();
   return false;
 }

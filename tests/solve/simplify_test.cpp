@@ -192,6 +192,19 @@ TEST_CASE("a deviation is measured and judged for any mesh") {
   CHECK(measure_deviation(solver(), a, b, within(0.125)).verdict == Verdict::kBeyond);
 }
 
+TEST_CASE("what is judged within a limit of 1e-4 of the diagonal is decided by a gate, too") {
+  const Mesh a = square_patch(4, 0);
+  const double height = 1e-4 * std::sqrt(2.0);
+  const Mesh b = square_patch(4, height);
+  CHECK(measure_deviation(solver(), a, b, within(height * 1.0015)).verdict == Verdict::kUndecided);
+  const double limit = height * 1.006;
+  CHECK(measure_deviation(solver(), a, b, within(limit)).verdict == Verdict::kWithin);
+  SolveOptions gate;
+  gate.tolerance = 1e-7;
+  gate.limit = {limit, limit};
+  CHECK(solver().symmetric(a, b, gate).interval().upper <= limit);
+}
+
 TEST_CASE("locked vertices stay, and the rest is collapsed") {
   const Collapser collapser(square_patch(20, 0), false, false);
   std::vector<uint32_t> locked;
