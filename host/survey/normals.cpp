@@ -83,15 +83,16 @@ bool is_ahead(const PlacedCell& at, const glm::dvec3& from, const glm::dvec3& al
 // Whether all corners of a cell lie beyond the edge from s to t, seen from v, in the plane of the
 // three. With e = t - s, f = v - s the outward direction is e x (e x f): e x f is off by 16 kRound
 // |e| |f|, the second product by 16 kRound |e| |e x f| more, so all of it by 32 kRound |e|^2 |f|,
-// and its product with p - s by as much and 8 kRound more. 64 are taken.
+// and its product with p - s by as much and 8 kRound more. 64 are taken. Lengths are sums of sizes:
+// squares of lengths under 1e-160 underflow. |e|^2 may, since all of it is then under kUnderflow.
 bool is_beyond(const PlacedCell& at, const glm::dvec3& s, const glm::dvec3& t,
                const glm::dvec3& v) {
   const glm::dvec3 e = t - s, f = v - s;
   const glm::dvec3 outward = glm::cross(e, glm::cross(e, f));
-  const double size = glm::dot(e, e) * glm::length(f);
+  const double size = glm::dot(e, e) * sum_of_sizes(f);
   return std::all_of(at.corners.begin(), at.corners.end(), [&](const glm::dvec3& p) {
     const glm::dvec3 d = p - s;
-    const double error = (64 * kRound * glm::length(d) + 2 * at.off) * size + kUnderflow;
+    const double error = (64 * kRound * sum_of_sizes(d) + 2 * at.off) * size + kUnderflow;
     return glm::dot(d, outward) > error;
   });
 }
@@ -131,6 +132,7 @@ double separation(const PlacedCell& at, const glm::dvec3& centre, const Corners3
 
 Normals::Normals(const SurveyedPair& pair)
     : a_(pair.a),
+      b_(pair.b),
       displacement_(pair.displacement),
       vertices_(scaled_of(pair.a, pair.frame)),
       faces_(corners_of_faces(pair.b, scaled_of(pair.b, pair.frame))),
@@ -172,11 +174,14 @@ bool Normals::find_near(const gpu::Cell& cell, const gpu::CellBounds& bounds,
   return tree_.walk([&](const TriangleBox& box) { return ball.may_hold(box); }, look);
 }
 
-// Whether a face of B has all those corners of another one.
+// Whether a face of B has all those corners of another one, as they were given: scaling may lay two
+// subnormal coordinates on one.
 bool Normals::has_corners(uint32_t face, const std::array<bool, 3>& which, uint32_t of) const {
-  const Corners3 &own = faces_[face], &asked = faces_[of];
-  for (size_t i = 0; i < 3; ++i) {
-    if (which[i] && std::find(own.begin(), own.end(), asked[i]) == own.end()) return false;
+  const auto corner = [&](uint32_t f, int i) { return glm::dvec3(b_.vertices[b_.faces[f][i]]); };
+  const Corners3 own{corner(face, 0), corner(face, 1), corner(face, 2)};
+  for (int i = 0; i < 3; ++i) {
+    const bool is_asked = which[static_cast<size_t>(i)];
+    if (is_asked && std::find(own.begin(), own.end(), corner(of, i)) == own.end()) return false;
   }
   return true;
 }

@@ -52,6 +52,7 @@ class Normals {
   bool has_corners(uint32_t face, const std::array<bool, 3>& which, uint32_t of) const;
 
   const Mesh& a_;
+  const Mesh& b_;
   const double displacement_;
   std::vector<glm::dvec3> vertices_;  // A's, scaled
   std::vector<Corners3> faces_;       // B's, scaled

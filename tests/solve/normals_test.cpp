@@ -47,7 +47,8 @@ Corners3 any_triangle(Random& random) {
   const double size = std::ldexp(1.0, -static_cast<int>(random.unit() * 30));
   const glm::dvec3 at = random.unit() < 0.5 ? glm::dvec3(0) : any_point(random, 4);
   const glm::dvec3 e = any_point(random, size);
-  const double thin = std::ldexp(1.0, -static_cast<int>(random.unit() * 45));
+  const double most = random.unit() < 0.9 ? 45 : 700;  // squares of the thinnest underflow
+  const double thin = std::ldexp(1.0, -static_cast<int>(random.unit() * most));
   return {at, at + e, at + e * random.unit() + any_point(random, size) * thin};
 }
 
@@ -224,6 +225,37 @@ TEST_CASE("within a cube the nearest wall changes: the share of a floor that has
   // Within 0.3 of the walls alone: (1.8^2 - 1.4^2) / 1.8^2 of the area, and no normal agrees.
   const Metrics near = metrics_between(floor, cube(1.0), 20, "0.3abs", 400000);
   CHECK(near.within[0].precision_normals.value.upper == 0);
+}
+
+// The only closest face is perpendicular to A; another one, parallel to A, has a corner beside its
+// own, which scaling lays on it.
+TEST_CASE("a corner that is not shared excuses no face, however near the other's") {
+  Mesh a, b;
+  a.vertices = {{0.5, -0.1, 0.25}, {1, -0.1, 0.25}, {0.5, 0.1, 0.25}};
+  a.faces = {{0, 1, 2}};
+  b.vertices = {{0, 0, 0},          {-1, 0, 0},           {-1, 0, -1},
+                {0, 0, -0x1p-1074}, {-1, -1, -0x1p-1074}, {-1, 1, -0x1p-1074}};
+  b.faces = {{0, 1, 2}, {3, 4, 5}};
+  const Metrics m = metrics_between(a, b, 20, "10abs", 2000);
+  CHECK(m.within[0].precision_normals.value.lower == 0);
+  CHECK(m.normal_consistency.value.lower <= 1.0 / 3);
+}
+
+// The closest face is nearly perpendicular to A, and thinner than squares of doubles go.
+TEST_CASE("a face of subnormal squares is excused by none that is not as close") {
+  Mesh a, b;
+  a.vertices = {{-0.44372116133775985, 0.20458103051764936, 0.10610434926715445},
+                {-0.5379098974469222, 0.323955865978493, 0.23602020914906058},
+                {-0.6610446554719646, 0.24148935464537916, 0.06857736554366889}};
+  a.faces = {{0, 1, 2}};
+  b.vertices = {{0, 0, 0},
+                {-0.4709436805458116, 0.5968741773042184, 0.6495792994095309},
+                {-4.673406946025801e-171, -4.957726058451358e-171, 8.86454848518469e-171},
+                {0.6156737901252117, 0.41233255666556934, 0.8372142180269585}};
+  b.faces = {{0, 1, 2}, {0, 1, 3}};
+  const Metrics m = metrics_between(a, b, 20, "10abs", 2000);
+  CHECK(m.within[0].precision_normals.value.lower == 0);
+  CHECK(m.normal_consistency.value.lower <= 0.6);
 }
 
 TEST_CASE("a face without area has no normal: what is closest to it alone is not known") {
