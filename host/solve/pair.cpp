@@ -113,6 +113,13 @@ SolveOptions coarser(const Pair& pair) {
   return coarse;
 }
 
+// Returns whether a run ended within its own tolerance, of its lower bound or of one that was
+// known, and not within that of the report.
+bool is_too_coarse(const Report& r) {
+  return (r.status == Status::kClosed && !is_within(r.lower, r.upper, r.tolerance)) ||
+         (r.status == Status::kPruned && !is_within(r.known_lower, r.upper, r.tolerance));
+}
+
 // Returns whether a finer run may decide what this one has not.
 bool asks_for_more(const Report& r) {
   return !is_decided(r.lower, r.upper, r.limit) &&
@@ -156,7 +163,7 @@ std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const Solve& s
     if (!(first[i].options.tolerance > pairs[i].options.tolerance)) continue;
     Report& r = reports[i];
     r.tolerance = tolerance_of(pairs[i]);
-    if (r.status == Status::kClosed && !is_within(r.lower, r.upper, r.tolerance))
+    if (is_too_coarse(r))
       r.status = is_decided(r.lower, r.upper, r.limit) ? Status::kLimit : Status::kPrecision;
     if (!asks_for_more(r)) continue;
     open.push_back(pairs[i]);

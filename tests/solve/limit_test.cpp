@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/solve/pair.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/error.h"
@@ -71,6 +72,41 @@ TEST_CASE("no candidate of many stops short of the limit") {
     options.tolerance = 1e-4;  // a band that candidates fall into
     CHECK(verdict(distance(a, b, options)) == Verdict::kWithin);
   }
+}
+
+// As in the reverse direction of a gate, which knows the forward direction's lower bound: a search
+// in plain floats ended at that bound, and nothing finer was asked for.
+TEST_CASE("what a known bound ends within plain floats' tolerance is asked again for the limit") {
+  const Mesh a = icosphere(1, 1), b = icosphere(1.1, 1);
+  const FramedPair framed = frame_pair(a, b);
+  Pair pair{.a = a,
+            .b = b,
+            .frame = framed.frame,
+            .stored_a = framed.a,
+            .stored_b = &framed.b,
+            .resident = nullptr,
+            .displacement = 0,
+            .has_low = false,
+            .box_a = framed.box_a,
+            .joint = vkh::join(framed.box_a, framed.box_b),
+            .options = limited(0.1, 0.1)};
+  pair.options.known_lower = 0.1 - 1e-6;
+  std::vector<double> tolerances;
+  const auto search = [&](const std::vector<Pair>& some) {
+    const bool is_coarse = tolerances.empty();
+    tolerances.push_back(some[0].options.tolerance);
+    Report r;
+    r.known_lower = some[0].options.known_lower;
+    r.limit = some[0].options.limit;
+    r.tolerance = tolerance_of(some[0]);
+    r.upper = is_coarse ? 0.1 + 1e-7 : 0.1 - 1e-7;
+    r.status = is_coarse ? Status::kPruned : Status::kLimit;
+    return std::vector<Report>{r};
+  };
+  const std::vector<Report> found = decide_limits({pair}, search);
+  CHECK(tolerances == std::vector<double>{1e-6, 1e-7});
+  CHECK(verdict(found[0]) == Verdict::kWithin);
+  CHECK(found[0].status == Status::kLimit);
 }
 
 TEST_CASE("a limit that is no double lies between two") {
