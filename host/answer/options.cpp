@@ -161,20 +161,27 @@ double parse_share(const char* option, const std::string& text) {
   return share;
 }
 
-double parse_percentile(const char* option, const std::string& text) {
+namespace {
+
+// Takes a number up to `most`, with its unit or without one.
+double parse_up_to(double most, const char* unit, const char* option, const std::string& text,
+                   const char* expected) {
   Quantity quantity;
-  const bool is_percentile = split(text, quantity) && quantity.number <= 100 &&
-                             (quantity.unit.empty() || quantity.unit == "%");
-  if (!is_percentile) refuse(option, text, "a percentile above 0 and at most 100, such as 95");
+  const bool is_one = split(text, quantity) && quantity.number <= most &&
+                      (quantity.unit.empty() || quantity.unit == unit);
+  if (!is_one) refuse(option, text, expected);
   return quantity.number;
 }
 
+}  // namespace
+
+double parse_percentile(const char* option, const std::string& text) {
+  return parse_up_to(100, "%", option, text, "a percentile above 0 and at most 100, such as 95");
+}
+
 double parse_angle(const char* option, const std::string& text) {
-  Quantity quantity;
-  const bool is_angle = split(text, quantity) && quantity.number <= 90 &&
-                        (quantity.unit.empty() || quantity.unit == "deg");
-  if (!is_angle) refuse(option, text, "an angle above 0 and at most 90 degrees, such as 20deg");
-  return quantity.number;
+  return parse_up_to(90, "deg", option, text,
+                     "an angle above 0 and at most 90 degrees, such as 20deg");
 }
 
 PartOf parse_part(const std::string& text) {

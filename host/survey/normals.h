@@ -26,8 +26,8 @@ Enclosure cosine_of(const UnitNormal& x, const UnitNormal& y);
 /// Encloses the cosine of an angle from 0 to 90 degrees.
 Enclosure cosine_of_degrees(double degrees);
 
-/// What is common to all points of a cell: at each x, c(x) is the largest |cos| between A's normal
-/// and that of a face of B that is closest to x.
+/// Encloses c(x) over all points x of a cell: the largest |cos| between A's normal and that of a
+/// face of B that is closest to x.
 class Normals {
  public:
   /// Keeps references to the pair's meshes, which are surfaces.

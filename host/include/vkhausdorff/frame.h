@@ -70,7 +70,7 @@ struct FramedPair {
   StoragePlan a, b;
   Box box_a, box_b;
 
-  /// What frame_pair(b, a) returns.
+  /// Returns what frame_pair(b, a) does.
   FramedPair reversed() const { return {frame, b, a, box_b, box_a}; }
 };
 /// Makes the joint box reach from 1/2 to 1. Prefers centre 0 where that keeps every coordinate in
