@@ -8,10 +8,11 @@
 
 namespace vkh {
 
-Distribution::Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest)
+Distribution::Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest,
+                           std::vector<Threshold> served)
     : cells_(std::move(cells)),
       areas_(std::move(areas)),
-      estimates_(pair, cells_, areas_),
+      estimates_(pair, cells_, areas_, std::move(served)),
       frame_(pair.frame),
       displacement_(pair.displacement),
       largest_(largest),

@@ -13,8 +13,10 @@ namespace vkh {
 /// it.
 class Distribution {
  public:
-  /// A has an area. `largest`: no distance is above it, in the files' units.
-  Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest);
+  /// A has an area. `largest`: no distance is above it, in the files' units. `served`: as for
+  /// Estimates; without them all shares_within() have estimates that are as good.
+  Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest,
+               std::vector<Threshold> served = {});
   Distribution(const Distribution&) = delete;
   Distribution& operator=(const Distribution&) = delete;
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "host/base/parallel.h"
 #include "host/mesh/closest.h"
@@ -237,8 +238,9 @@ void within_part(const std::array<float, 3>& corners, double area,
 
 }  // namespace
 
-Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas)
-    : cells_(cells), areas_(areas), of_cell_(cells.count()) {
+Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas,
+                     std::vector<Threshold> served)
+    : cells_(cells), areas_(areas), served_(std::move(served)), of_cell_(cells.count()) {
   const CellEstimator estimator(pair);
   std::vector<std::vector<size_t>> coarse(block_count(cells.count()));
   for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
@@ -246,7 +248,7 @@ Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Are
       const gpu::CellBounds& bounds = cells.bounds(i);
       const MeasuredCell cell = estimator.measured(cells.cell(i), estimator.named_by(bounds));
       of_cell_[i] = CellEstimator::of(cell, bounds);
-      if (estimator.may_miss_faces(cell, bounds)) coarse[block].push_back(i);
+      if (matters(i) && estimator.may_miss_faces(cell, bounds)) coarse[block].push_back(i);
     }
   });
   const auto has_some = [](const std::vector<size_t>& block) { return !block.empty(); };
@@ -256,6 +258,13 @@ Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Are
     for (const size_t i : coarse[block])
       of_cell_[i] = CellEstimator::of(estimator.measured(cells.cell(i), faces), cells.bounds(i));
   });
+}
+
+bool Estimates::matters(size_t cell) const {
+  return serve_all() || std::any_of(served_.begin(), served_.end(), [&](const Threshold& at) {
+           const Enclosure share = share_within(cells_, cell, at);
+           return share.lower < share.upper;
+         });
 }
 
 double Estimates::area_of(size_t cell) const {
@@ -351,9 +360,10 @@ void put_shares(const Estimates& estimates, const SurveyedPair& pair,
 
 void add_estimates(const Estimates& estimates, const SurveyedPair& pair,
                    std::span<const Enclosure> percentiles, Statistics& s) {
+  put_shares(estimates, pair, s.bands);
+  if (!estimates.serve_all()) return;
   put(length_in_files(pair, estimates.mean()), s.mean);
   put(length_in_files(pair, estimates.rms()), s.rms);
-  put_shares(estimates, pair, s.bands);
   put_shares(estimates, pair, s.curve);
   std::vector<double> shares;
   for (const Percentile& p : s.percentiles) shares.push_back(p.share);

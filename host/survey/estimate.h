@@ -22,9 +22,14 @@ struct CellEstimate {
 class Estimates {
  public:
   /// Takes the distance of each corner and of the middle from the faces of B that the cell's bounds
-  /// name, which are closest there but for rounding, or nearly so.
-  Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas);
+  /// name, which are closest there but for rounding, or nearly so. A coarse cell may not name them:
+  /// it is measured from all faces, unless estimates serve the shares within `served` alone, each
+  /// of which has all of the cell or none.
+  Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas,
+            std::vector<Threshold> served = {});
 
+  /// Returns whether these are estimates for all figures, not for some shares alone.
+  bool serve_all() const { return served_.empty(); }
   const CellEstimate& of(size_t cell) const { return of_cell_[cell]; }
   double mean() const;
   double rms() const;
@@ -38,13 +43,17 @@ class Estimates {
 
  private:
   double area_of(size_t cell) const;
+  /// Returns whether an estimate of the cell can move a figure.
+  bool matters(size_t cell) const;
 
   const CellStore& cells_;
   const Areas& areas_;
+  const std::vector<Threshold> served_;
   std::vector<CellEstimate> of_cell_;
 };
 
-/// Adds to each figure, and to the share at each distance, what it probably is. `percentiles`: the
+/// Adds to each figure that the estimates serve, and to the share at each distance, what it
+/// probably is. `percentiles`: the
 /// enclosures of the percentiles, in the frame.
 void add_estimates(const Estimates& estimates, const SurveyedPair& pair,
                    std::span<const Enclosure> percentiles, Statistics& statistics);

@@ -236,6 +236,12 @@ Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths) {
   return {f.lower, f.upper};
 }
 
+std::vector<Threshold> only_shares_of(const SurveyOptions& options, const SurveyedPair& pair) {
+  const bool has_lengths = std::isfinite(options.mean_tolerance) || options.narrows_percentiles;
+  if (has_lengths || options.map || options.normals_within || options.max_distance) return {};
+  return bands_of({options, pair.displacement, pair.frame, least_width(pair)});
+}
+
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas, std::vector<Enclosure>& known) {
   std::vector<Goal> goals;

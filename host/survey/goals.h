@@ -85,6 +85,10 @@ double least_width(const SurveyedPair& pair);
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
                            const Areas& areas, std::vector<Enclosure>& known);
 
+/// Returns the thresholds of the bands where their shares are all that a survey has goals for, and
+/// all that it draws: none otherwise.
+std::vector<Threshold> only_shares_of(const SurveyOptions& options, const SurveyedPair& pair);
+
 /// The surface that figures are of.
 struct SurveyedArea {
   const CellStore& store;

@@ -347,7 +347,8 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     result.cells = store.count();
     if ((options.statistics || options.map) && areas.is_positive()) {
       const double largest = largest_upper(store, pair);
-      const auto whole = std::make_shared<Distribution>(pair, std::move(store), areas, largest);
+      const auto whole = std::make_shared<Distribution>(pair, std::move(store), areas, largest,
+                                                        only_shares_of(options, pair));
       const SurveyedArea surface{whole->cells(), whole->areas(), percentiles};
       if (options.statistics)
         result.statistics = statistics_of(surface, pair, options, whole->estimates());

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -129,6 +130,28 @@ TEST_CASE("a wedge: estimates are exact before any cell is split") {
     CHECK(*band.share.estimate == doctest::Approx(4 * band.distance).epsilon(1e-4));
   for (const Percentile& p : s.percentiles)
     CHECK(*p.distance.estimate == doctest::Approx(p.share / 4).epsilon(1e-3));
+}
+
+// Each whole face of A has more faces of B about it than a device examines, so that it may not name
+// those that are closest at its corners.
+TEST_CASE("shares alone have the estimates that they have beside all figures") {
+  const Mesh a = icosphere(1.1, 0), b = icosphere(1, 4);
+  SurveyOptions options = statistics_alone({0.02, 0.05, 0.08, 0.11});
+  options.effort = 0;
+  const SurveyResult all = survey_of(a, b, options);
+  options.mean_tolerance = std::numeric_limits<double>::infinity();
+  options.narrows_percentiles = false;
+  const SurveyResult alone = survey_of(a, b, options);
+  REQUIRE(all.statistics);
+  REQUIRE(alone.statistics);
+  for (size_t i = 0; i < options.bands.size(); ++i) {
+    const Enclosure &of_all = all.statistics->bands[i].share,
+                    &of_alone = alone.statistics->bands[i].share;
+    CHECK(of_all.lower < of_all.upper);
+    CHECK(of_alone.estimate == of_all.estimate);
+  }
+  CHECK(all.statistics->mean.estimate);
+  CHECK_FALSE(alone.statistics->mean.estimate);
 }
 
 TEST_CASE("estimates are nearer to dense samples than the middles of intervals") {

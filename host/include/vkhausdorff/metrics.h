@@ -51,7 +51,7 @@ struct Metrics {
 struct MetricsOptions {
   double percentile = 95;  ///< in (0, 100]
   /// Names of kNamedMetrics and kNamedShares: these alone have goals, and the others' intervals are
-  /// what falls off. Empty: all.
+  /// what falls off, without estimates where only shares are named. Empty: all.
   std::vector<std::string> figures = {};
   /// If set: figures of normals, which agree within so many degrees, from 0 to 90.
   std::optional<double> normals = {};

@@ -68,7 +68,9 @@ struct SurveyOptions {
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area, 0 to 1
-  bool narrows_percentiles = true;  ///< false: percentiles are enclosed, and have no goal
+  /// false: percentiles are enclosed, and have no goal. With a mean_tolerance that is infinite only
+  /// the shares within `bands` have estimates then.
+  bool narrows_percentiles = true;
   /// With statistics of a surface: also the agreement of normals, of an angle from 0 to 90 degrees.
   /// Normals are of the corners as the meshes hold them; Mesh::delta is no part of them.
   std::optional<double> normals_within = {};
