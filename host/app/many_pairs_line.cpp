@@ -174,7 +174,9 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
       of_pairs.time ? parse_time(*of_pairs.time) : std::numeric_limits<double>::infinity();
   batch.tables = tables_of(typed);
   batch.folders = folders_of(of_pairs.pictures);
-  if (line.question.effort && !batch.folders.any() && !line.question.asks_for_survey())
+  const bool may_survey =  // pairs of a list may ask for it
+      !batch.list.empty() || batch.folders.any() || line.question.asks_for_survey();
+  if (line.question.effort && !may_survey)
     throw UsageError(
         "--effort: is of figures and of what is drawn: ask for --signed, --metrics, "
         "--image-dir or --report-dir");

@@ -146,9 +146,19 @@ class Effort(unittest.TestCase):
         drawn = batch("--report-dir", str(reports), "--effort", "1000")
         self.assertEqual(batch("--report-dir", str(reports), "--effort", "1000"), drawn)
         self.assertGreater(batch("--report-dir", str(reports), "--effort", "2000"), drawn)
-        done = self.run_program("batch", str(folder / "list.csv"), "--out", str(folder / "other.jsonl"), "--effort", "5")
+        done = self.run_program("batch", str(folder), str(folder), "--out", str(folder / "other.jsonl"), "--effort", "5")
         self.assertEqual(done.returncode, 2)
         self.assertIn("--effort: is of figures and of what is drawn", done.stderr)
+
+    def test_a_list_has_one_effort_for_the_pairs_that_use_it(self):
+        folder = pathlib.Path(self.folder.name)
+        (folder / "signed.jsonl").write_text('{"id": "plain", "a": "a.obj", "b": "b.obj"}\n{"id": "sided", "a": "a.obj", "b": "b.obj", "signed": true}\n')
+        results = folder / "signed_results.jsonl"
+        done = self.run_program("batch", str(folder / "signed.jsonl"), "--out", str(results), "--effort", "1000")
+        self.assertIn(done.returncode, (0, 3), done.stderr)
+        lines = [json.loads(line) for line in results.read_text().splitlines()]
+        surveys = [line["directions"][0]["survey"] for line in lines if "survey" in line["directions"][0]]
+        self.assertEqual([survey["effort"] for survey in surveys], [1000])
 
 
 if __name__ == "__main__":

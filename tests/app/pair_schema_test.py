@@ -71,7 +71,7 @@ class Batch(unittest.TestCase):
         (folder / "bad.obj").write_text("v 0 0 zero\n")
         (folder / "list.jsonl").write_text("".join(json.dumps(pair) + "\n" for pair, _ in PAIRS))
         (folder / "late.csv").write_text("id,a,b\nlate,a.obj,b.obj\n")
-        cls.done = run("batch", "list.jsonl", "--out", "out.jsonl", "--csv", "out.csv", "--junit", "out.xml", folder=folder)
+        cls.done = run("batch", "list.jsonl", "--effort", "20000", "--out", "out.jsonl", "--csv", "out.csv", "--junit", "out.xml", folder=folder)
         cls.late = run("batch", "late.csv", "--out", "late.jsonl", "--time", "0.001ms", folder=folder)
         cls.merged = run("merge", "out.jsonl", "late.jsonl", "--out", "all.jsonl", "--reproducible", "--csv", "all.csv", folder=folder)
 
