@@ -9,10 +9,10 @@
 namespace vkh {
 
 Distribution::Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest,
-                           std::vector<Threshold> served)
+                           std::vector<Threshold> served, const GoesOn& goes_on)
     : cells_(std::move(cells)),
       areas_(std::move(areas)),
-      estimates_(pair, cells_, areas_, std::move(served)),
+      estimates_(pair, cells_, areas_, std::move(served), goes_on),
       frame_(pair.frame),
       displacement_(pair.displacement),
       largest_(largest),

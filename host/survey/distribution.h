@@ -13,10 +13,10 @@ namespace vkh {
 /// it.
 class Distribution {
  public:
-  /// A has an area. `largest`: no distance is above it, in the files' units. `served`: as for
-  /// Estimates; without them all shares_within() have estimates that are as good.
+  /// A has an area. `largest`: no distance is above it, in the files' units. `served` and
+  /// `goes_on`: as for Estimates; without `served` all shares_within() have estimates as good.
   Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest,
-               std::vector<Threshold> served = {});
+               std::vector<Threshold> served, const GoesOn& goes_on);
   Distribution(const Distribution&) = delete;
   Distribution& operator=(const Distribution&) = delete;
 

@@ -163,6 +163,14 @@ class CellEstimator {
     return false;
   }
 
+  // An estimate from the bounds alone.
+  static CellEstimate of_bounds(const gpu::CellBounds& b) {
+    MeasuredCell unmeasured;
+    unmeasured.middle = std::numeric_limits<double>::infinity();
+    unmeasured.corners.fill(unmeasured.middle);
+    return of(unmeasured, b);
+  }
+
   // Weights of 1/12 for each corner and 3/4 for the centroid make the mean of a quadratic function
   // over a triangle.
   static CellEstimate of(const MeasuredCell& cell, const gpu::CellBounds& b) {
@@ -205,6 +213,29 @@ class CellEstimator {
   const bool are_points_;
 };
 
+// Estimates all cells, those that do not matter from their bounds, and the others from the faces
+// that the bounds name. Returns those that may not name the closest faces.
+template <class Matters>
+std::vector<size_t> estimate_by_named(const CellEstimator& estimator, const CellStore& cells,
+                                      const Matters& matters, std::vector<CellEstimate>& found) {
+  std::vector<std::vector<size_t>> coarse(block_count(cells.count()));
+  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const gpu::CellBounds& bounds = cells.bounds(i);
+      if (!matters(i)) {
+        found[i] = CellEstimator::of_bounds(bounds);
+        continue;
+      }
+      const MeasuredCell cell = estimator.measured(cells.cell(i), estimator.named_by(bounds));
+      found[i] = CellEstimator::of(cell, bounds);
+      if (estimator.may_miss_faces(cell, bounds)) coarse[block].push_back(i);
+    }
+  });
+  std::vector<size_t> all;
+  for (const std::vector<size_t>& block : coarse) all.insert(all.end(), block.begin(), block.end());
+  return all;
+}
+
 // Adds up what `add(sums, cell)` adds for each cell: in blocks, and then block by block, so that
 // the bits are the same on any number of threads.
 template <class Add>
@@ -239,24 +270,16 @@ void within_part(const std::array<float, 3>& corners, double area,
 }  // namespace
 
 Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas,
-                     std::vector<Threshold> served)
+                     std::vector<Threshold> served, const GoesOn& goes_on)
     : cells_(cells), areas_(areas), served_(std::move(served)), of_cell_(cells.count()) {
   const CellEstimator estimator(pair);
-  std::vector<std::vector<size_t>> coarse(block_count(cells.count()));
-  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      const gpu::CellBounds& bounds = cells.bounds(i);
-      const MeasuredCell cell = estimator.measured(cells.cell(i), estimator.named_by(bounds));
-      of_cell_[i] = CellEstimator::of(cell, bounds);
-      if (matters(i) && estimator.may_miss_faces(cell, bounds)) coarse[block].push_back(i);
-    }
-  });
-  const auto has_some = [](const std::vector<size_t>& block) { return !block.empty(); };
-  if (std::none_of(coarse.begin(), coarse.end(), has_some)) return;
+  const auto matter = [this](size_t i) { return matters(i); };
+  const std::vector<size_t> coarse = estimate_by_named(estimator, cells, matter, of_cell_);
+  if (coarse.empty()) return;
   const AllFaces faces = estimator.all_faces();
-  for_each_block(cells.count(), [&](size_t block, size_t, size_t) {
-    for (const size_t i : coarse[block])
-      of_cell_[i] = CellEstimator::of(estimator.measured(cells.cell(i), faces), cells.bounds(i));
+  each_while(coarse.size(), goes_on, [&](size_t k) {
+    const size_t i = coarse[k];
+    of_cell_[i] = CellEstimator::of(estimator.measured(cells.cell(i), faces), cells.bounds(i));
   });
 }
 
@@ -362,9 +385,9 @@ void add_estimates(const Estimates& estimates, const SurveyedPair& pair,
                    std::span<const Enclosure> percentiles, Statistics& s) {
   put_shares(estimates, pair, s.bands);
   if (!estimates.serve_all()) return;
+  put_shares(estimates, pair, s.curve);
   put(length_in_files(pair, estimates.mean()), s.mean);
   put(length_in_files(pair, estimates.rms()), s.rms);
-  put_shares(estimates, pair, s.curve);
   std::vector<double> shares;
   for (const Percentile& p : s.percentiles) shares.push_back(p.share);
   const std::vector<double> at = estimates.percentiles(shares, percentiles);

@@ -8,6 +8,7 @@
 
 #include "host/solve/cells.h"
 #include "host/survey/statistics.h"
+#include "host/survey/stoppable.h"
 
 namespace vkh {
 
@@ -23,10 +24,11 @@ class Estimates {
  public:
   /// Takes the distance of each corner and of the middle from the faces of B that the cell's bounds
   /// name, which are closest there but for rounding, or nearly so. A coarse cell may not name them:
-  /// it is measured from all faces, unless estimates serve the shares within `served` alone, each
-  /// of which has all of the cell or none.
+  /// it is measured from all faces. Where estimates serve the shares within `served` alone, and
+  /// each has all of a cell or none, it is not measured. Once `goes_on` returns false, coarse cells
+  /// are left as their bounds' faces tell.
   Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas,
-            std::vector<Threshold> served = {});
+            std::vector<Threshold> served = {}, const GoesOn& goes_on = {});
 
   /// Returns whether these are estimates for all figures, not for some shares alone.
   bool serve_all() const { return served_.empty(); }

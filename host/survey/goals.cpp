@@ -144,31 +144,37 @@ std::vector<bool> jumps_of(const CellStore& store, const Areas& areas, const Ask
   return jumps;
 }
 
-// Whether each share that is undecided is so for ever: but for what is enough, the undecided area
-// is proven to lie at that distance, as well as floats tell.
-std::vector<bool> jumps_of(const CellStore& store, const Areas& areas, const Asked& asked,
-                           const std::vector<Threshold>& bands,
-                           const std::vector<Enclosure>& shares) {
+struct Bands {
+  std::vector<Enclosure> shares;
+  std::vector<bool> jumps;
+};
+
+// The shares, and whether each that is undecided is so for ever: but for what is enough, the
+// undecided area is proven to lie at that distance, as well as floats tell.
+Bands shares_of(const CellStore& store, const Areas& areas, const Asked& asked,
+                const std::vector<Threshold>& bands) {
   std::vector<Threshold> at;
   for (const Threshold& band : bands) {
+    at.push_back(band);
     at.push_back({band.down - asked.least, band.down - asked.least});
     at.push_back({band.up + asked.least, band.up + asked.least});
   }
-  const std::vector<Enclosure> around = shares_within(store, areas, at);
-  std::vector<bool> jumps;
+  const std::vector<Enclosure> all = shares_within(store, areas, at);
+  Bands found;
   for (size_t i = 0; i < bands.size(); ++i) {
-    const double there = around[2 * i + 1].lower - around[2 * i].upper;
+    const Enclosure &share = all[3 * i], &before = all[3 * i + 1], &behind = all[3 * i + 2];
+    const double there = behind.lower - before.upper;
     const double tolerance = asked.options.area_tolerance;
-    jumps.push_back(width(shares[i]) > tolerance && width(shares[i]) - there <= tolerance);
+    found.shares.push_back(share);
+    found.jumps.push_back(width(share) > tolerance && width(share) - there <= tolerance);
   }
-  return jumps;
+  return found;
 }
 
 // Scores a cell by the area that is undecided in shares that are too wide.
 Scores score_shares(const CellStore& store, const Areas& areas, const Asked& asked) {
   const std::vector<Threshold> bands = bands_of(asked);
-  const std::vector<Enclosure> shares = shares_within(store, areas, bands);
-  const std::vector<bool> atoms = jumps_of(store, areas, asked, bands, shares);
+  const auto [shares, atoms] = shares_of(store, areas, asked, bands);
   std::vector<Threshold> open;
   double part = 0;
   for (size_t i = 0; i < bands.size(); ++i) {
@@ -291,11 +297,16 @@ std::vector<AreaWithin> within(const CellStore& store, const Areas& areas, const
 
 void add_jumps(const CellStore& store, const Areas& areas, const Asked& asked,
                std::vector<AreaWithin>& bands) {
-  std::vector<Enclosure> shares;
-  shares.reserve(bands.size());
-  for (const AreaWithin& band : bands) shares.push_back(band.share);
-  const std::vector<bool> jumps = jumps_of(store, areas, asked, bands_of(asked), shares);
-  for (size_t i = 0; i < bands.size(); ++i) bands[i].jump = jumps[i];
+  const std::vector<bool> jumps = shares_of(store, areas, asked, bands_of(asked)).jumps;
+  // All area is within a band that no distance exceeds, whatever its threshold says.
+  for (size_t i = 0; i < bands.size(); ++i)
+    bands[i].jump = jumps[i] && width(bands[i].share) > asked.options.area_tolerance;
+}
+
+std::vector<AreaWithin> curve_of(const CellStore& store, const Areas& areas, const Asked& asked) {
+  std::vector<double> steps;
+  for (int k = 0; k <= kCurveSteps; ++k) steps.push_back(asked.largest * k / kCurveSteps);
+  return within(store, areas, asked, steps);
 }
 
 }  // namespace
@@ -324,9 +335,7 @@ std::optional<Statistics> statistics_of(const SurveyedArea& surface, const Surve
   const std::vector<bool> gaps = jumps_of(store, areas, asked, at);
   for (size_t i = 0; i < at.size(); ++i)
     s.percentiles.push_back({options.percentiles[i], in_files(pair, at[i]), gaps[i]});
-  std::vector<double> steps;
-  for (int k = 0; k <= kCurveSteps; ++k) steps.push_back(last * k / kCurveSteps);
-  s.curve = within(store, areas, asked, steps);
+  if (estimates.serve_all()) s.curve = curve_of(store, areas, asked);
   add_estimates(estimates, pair, at, s);
   if (options.max_distance) keep_within({store, areas, known}, pair, options, s);
   return s;

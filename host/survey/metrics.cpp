@@ -198,6 +198,14 @@ MetricsWithin within_of(const Enclosure& weight, const AreaWithin& a, const Area
   return at;
 }
 
+// `between`: both parts' own percentiles, which it lies between.
+Metric pooled_metric(const PooledPart& a, const PooledPart& b, double share,
+                     const Enclosure& between, const Goals& goals) {
+  Enclosure pooled = pooled_percentile(a, b, share, between);
+  pooled.estimate = likely_pooled_percentile(a, b, share, pooled);
+  return goals.length(pooled, false, is_pooled_jump(a, b, pooled, goals.of_length(pooled.lower)));
+}
+
 Enclosure hausdorff_of(const Report& a, const Report& b) {
   Enclosure e{std::max(a.lower, b.lower), std::max(a.upper, b.upper)};
   if (std::isfinite(e.lower)) e.estimate = e.lower;  // the farthest point that was found
@@ -296,10 +304,9 @@ Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
   m.normals = options.normals;
   m.hausdorff = goals.length(hausdorff_of(a.report, b.report), false);
   m.hd_p = goals.length(larger(p.distance, q.distance), false, p.jump || q.jump);
-  Enclosure pooled = pooled_percentile(part_a, part_b, p.share, between);
-  pooled.estimate = likely_pooled_percentile(part_a, part_b, p.share, pooled);
-  m.hd_p_pooled = goals.length(
-      pooled, false, is_pooled_jump(part_a, part_b, pooled, goals.of_length(pooled.lower)));
+  m.hd_p_pooled = options.asks_for({"hd_p_pooled"})
+                      ? pooled_metric(part_a, part_b, p.share, between, goals)
+                      : goals.length(between, false);
   m.masd = goals.length(half(sum(of_a.mean, of_b.mean)), means);
   m.assd = goals.length(weighted(weight, of_a.mean, of_b.mean), means);
   m.rms = goals.length(weighted_rms(weight, of_a.rms, of_b.rms), roots);

@@ -76,6 +76,12 @@ class Bounding {
     });
   }
 
+  // Whether the caller lets the survey go on, however long it took.
+  bool is_wanted() {
+    if (ended_ != SurveyEnd::kCancelled && options_.goes_on && !options_.goes_on(bounded_))
+      ended_ = SurveyEnd::kCancelled;
+    return ended_ != SurveyEnd::kCancelled;
+  }
   // The number of cells that may still be split.
   size_t splits_left() const { return (effort_ - spent_) / 2; }
   size_t effort() const { return effort_; }
@@ -92,9 +98,8 @@ class Bounding {
 
  private:
   bool goes_on(SurveyEnd& ended, double limit_ms) {
-    if (this->ended() == SurveyEnd::kCancelled) ended = SurveyEnd::kCancelled;
     if (ended != SurveyEnd::kMet) return false;
-    if (options_.goes_on && !options_.goes_on(bounded_)) {
+    if (!is_wanted()) {
       ended = SurveyEnd::kCancelled;
     } else if (ms() > limit_ms) {
       ended = SurveyEnd::kTime;
@@ -348,7 +353,9 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     if ((options.statistics || options.map) && areas.is_positive()) {
       const double largest = largest_upper(store, pair);
       const auto whole = std::make_shared<Distribution>(pair, std::move(store), areas, largest,
-                                                        only_shares_of(options, pair));
+                                                        only_shares_of(options, pair),
+                                                        [&] { return bounding.is_wanted(); });
+      result.ended = std::max(result.ended, bounding.ended());
       const SurveyedArea surface{whole->cells(), whole->areas(), percentiles};
       if (options.statistics)
         result.statistics = statistics_of(surface, pair, options, whole->estimates());

@@ -73,6 +73,7 @@ struct Statistics {
   /// those of B's closest faces, whatever their signs; in [0, 1].
   std::optional<Enclosure> normal_cosine = {};
   /// The whole distribution, for charts: distances that ascend from 0 to the largest upper.
+  /// Empty where only the shares within `bands` have goals.
   std::vector<AreaWithin> curve;
 };
 

@@ -69,7 +69,7 @@ struct SurveyOptions {
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area, 0 to 1
   /// false: percentiles are enclosed, and have no goal. With a mean_tolerance that is infinite only
-  /// the shares within `bands` have estimates then.
+  /// the shares within `bands` have estimates then, and there is no curve.
   bool narrows_percentiles = true;
   /// With statistics of a surface: also the agreement of normals, of an angle from 0 to 90 degrees.
   /// Normals are of the corners as the meshes hold them; Mesh::delta is no part of them.
