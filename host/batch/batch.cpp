@@ -33,6 +33,12 @@ Failure failure_of(const std::exception_ptr& thrown, const Entry& entry) {
   return failure_of(error);
 }
 
+StreamOptions stream_of(const BatchJob& job) {
+  StreamOptions options = job.devices;
+  options.surveys = job.folders != nullptr || job.question.asks_for_survey();
+  return options;
+}
+
 class Batch {
  public:
   explicit Batch(const BatchJob& job)
@@ -42,7 +48,7 @@ class Batch {
         reader_(job.question, job.shared, [this] { return goes_on(); }) {
     keep_older_lines();
     stream_ = std::make_unique<PairStream>(
-        job_.devices, [this](StreamResult&& result) { take(std::move(result)); });
+        stream_of(job_), [this](StreamResult&& result) { take(std::move(result)); });
   }
 
   /// Returns nothing if it was to stop but a part of it does not: its threads are left behind.

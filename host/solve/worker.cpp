@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "host/base/parallel.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -31,12 +32,17 @@ constexpr unsigned kMostTries = 2;
 
 // On a GPU a pair of 10,000 faces leaves most of it idle: 16 at once take half of the time
 // (docs/benchmarks.md), and a third worker hides what the host does. A CPU device has no such room.
+// A survey takes most of its time on one or two cores of the host, one pair after the other: 8
+// lanes took half of the time of 3 on 16 cores (docs/log/metrics.md).
 LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device) {
-  constexpr size_t kLanes = 3, kTogether = 16;
+  constexpr size_t kLanes = 3, kMostLanes = 8, kTogether = 16;
   const bool on_cpu = device.type == "cpu";
   LaneShape shape;
-  shape.lanes = options.lanes != 0 ? options.lanes : on_cpu ? 1 : kLanes;
-  shape.together = options.together != 0 ? options.together : on_cpu ? 1 : kTogether;
+  const size_t lanes =
+      options.surveys ? std::clamp(thread_count() / 2, kLanes, kMostLanes) : kLanes;
+  const size_t together = options.surveys ? 1 : kTogether;
+  shape.lanes = options.lanes != 0 ? options.lanes : on_cpu ? 1 : lanes;
+  shape.together = options.together != 0 ? options.together : on_cpu ? 1 : together;
   shape.bytes = device.memory_bytes / 2 / shape.lanes;
   return shape;
 }

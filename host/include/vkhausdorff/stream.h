@@ -49,9 +49,10 @@ struct StreamOptions {
   std::vector<std::string> devices = {""};
   std::filesystem::path cache_folder;  ///< see Solver
   SolveOptions first;                  ///< its pipelines are made while the first pairs are read
-  size_t together = 0;  ///< pairs side by side in one submission; 0: what pays on the device
-  size_t lanes = 0;     ///< submissions side by side on a device; 0: what pays on it
-  size_t waiting = 0;   ///< most pairs that wait for a device; 0: twice what devices hold
+  size_t together = 0;   ///< pairs side by side in one submission; 0: what pays on the device
+  size_t lanes = 0;      ///< submissions side by side on a device; 0: what pays on it
+  bool surveys = false;  ///< most pairs have a survey in `beside`, which is mostly the host's work
+  size_t waiting = 0;    ///< most pairs that wait for a device; 0: twice what devices hold
 };
 
 /// The time that devices were busy, in seconds over all of them.
