@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/base/decimal.h"
+#include "host/base/hypot3.h"
 
 namespace vkh {
 namespace {
@@ -136,7 +137,7 @@ std::optional<Note> note_on_turn(const PrincipalAxes& a, const PrincipalAxes& b)
 
 std::optional<Note> note_on_place(const Box& a, const Box& b, const std::string& unit) {
   const glm::dvec3 shift = (0.5 * a.lo + 0.5 * a.hi) - (0.5 * b.lo + 0.5 * b.hi);
-  const double centres = glm::length(shift);
+  const double centres = hypot3(shift.x, shift.y, shift.z);
   const bool apart = are_disjoint(a, b);
   if (!apart && !(centres > kApart * diagonal(b))) return std::nullopt;
   return note_of(NoteCode::kApart,

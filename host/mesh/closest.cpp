@@ -1,6 +1,7 @@
 #include "host/mesh/closest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
 
@@ -47,6 +48,24 @@ ClosestPoint closest_point(const glm::dvec3& p, const glm::dvec3& a, const glm::
     }
   }
   return best.at;
+}
+
+// Scales by a power of two, which is exact but for what is subnormal beside the largest coordinate.
+ClosestPoint closest_point_of_any_size(const glm::dvec3& p, const glm::dvec3& a,
+                                       const glm::dvec3& b, const glm::dvec3& c) {
+  constexpr int kUsual = 200;
+  double largest = 0;
+  for (const glm::dvec3& q : {p, a, b, c})
+    largest = std::max({largest, std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+  const int exponent = largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0;
+  if (std::abs(exponent) <= kUsual) return closest_point(p, a, b, c);
+  const auto scaled = [](const glm::dvec3& q, int by) {
+    return glm::dvec3(std::ldexp(q.x, by), std::ldexp(q.y, by), std::ldexp(q.z, by));
+  };
+  ClosestPoint found = closest_point(scaled(p, -exponent), scaled(a, -exponent),
+                                     scaled(b, -exponent), scaled(c, -exponent));
+  found.point = scaled(found.point, exponent);
+  return found;
 }
 
 }  // namespace vkh

@@ -13,5 +13,9 @@ struct ClosestPoint {
 /// Takes degenerate triangles as segments or points.
 ClosestPoint closest_point(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b,
                            const glm::dvec3& c);
+/// The same for coordinates of any size: closest_point() has products of four lengths, which
+/// overflow above 1e77 and underflow below 1e-81.
+ClosestPoint closest_point_of_any_size(const glm::dvec3& p, const glm::dvec3& a,
+                                       const glm::dvec3& b, const glm::dvec3& c);
 
 }  // namespace vkh

@@ -49,7 +49,8 @@ void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out)
   out.witness_a = {.barycentric = {1 - v - w, v, w}, .point = p};
   out.witness_a.set_face(a, r.witnessFaceA);
   const glm::uvec3 fb = b.faces[r.witnessFaceB];
-  const ClosestPoint q = closest_point(p, b.vertices[fb.x], b.vertices[fb.y], b.vertices[fb.z]);
+  const ClosestPoint q =
+      closest_point_of_any_size(p, b.vertices[fb.x], b.vertices[fb.y], b.vertices[fb.z]);
   out.witness_b = {.barycentric = q.barycentric, .point = q.point};
   out.witness_b.set_face(b, r.witnessFaceB);
   out.has_witness = true;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/base/hypot3.h"
 #include "host/base/rounding.h"
 #include "tests/shapes/adversarial.h"
 #include "tests/shapes/shapes.h"
@@ -118,14 +119,24 @@ TEST_CASE("a tolerance that is the width rounded to nearest, below it, is not me
   CHECK(missed >= 3);
 }
 
+// The points that are shown are as far apart as the interval says, whatever their size.
+void check_witness(const Report& r) {
+  const glm::dvec3 d = glm::dvec3(r.witness_a.point) - glm::dvec3(r.witness_b.point);
+  const double distance = hypot3(d.x, d.y, d.z);
+  CHECK(distance >= r.lower * (1 - 1e-6));
+  CHECK(distance <= r.upper * (1 + 1e-6));
+}
+
 TEST_CASE("directed and symmetric runs from 2^-1060 to 2^1010") {
   Tally tally("scales");
   for (const int scale :
        {-1060, -1050, -1040, -1030, -1022, -1018, -1000, -300, 0, 300, 1000, 1010}) {
     for (uint64_t i = 0; i < 5; ++i) {
       const Mesh a = scaled(soup(300 + i, 3), scale), b = scaled(soup(400 + i, 2), scale);
-      check_promises(solver().distance(a, b), 1e-6, tally);
+      const Report r = solver().distance(a, b);
+      check_promises(r, 1e-6, tally);
       check_symmetric(a, b, tally);
+      if (scale >= -1000) check_witness(r);
     }
   }
   const Mesh point = single_triangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});
