@@ -4,8 +4,12 @@
 #include <future>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace vkh {
+
+/// Lets a thread go on that nothing joins (system_posix.cpp, system_windows.cpp).
+void leave_thread(std::thread thread);
 
 /// Runs `work` on a thread of its own or, if none is available, when its result is requested. No
 /// thread waits for a result that is never requested: the program must end by end_process.
@@ -14,7 +18,7 @@ auto begin_now(Work work) {
   std::packaged_task<decltype(work())()> task(work);
   auto result = task.get_future();
   try {
-    std::thread(std::move(task)).detach();
+    leave_thread(std::thread(std::move(task)));
   } catch (const std::system_error&) {
     return std::async(std::launch::deferred, work);
   }

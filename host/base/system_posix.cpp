@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdlib>
 
+#include "host/base/begin_now.h"
 #include "host/base/system.h"
 
 namespace vkh {
@@ -51,5 +52,7 @@ std::string host_name() {
 }
 
 void end_process(int code) { std::_Exit(code); }
+
+void leave_thread(std::thread thread) { thread.detach(); }
 
 }  // namespace vkh

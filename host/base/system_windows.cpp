@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "host/base/begin_now.h"
 #include "host/base/system.h"
 #include "host/base/windows_text.h"
 
@@ -100,6 +101,13 @@ unsigned long process_id() { return GetCurrentProcessId(); }
 void end_process(int code) {
   TerminateProcess(GetCurrentProcess(), static_cast<UINT>(code));
   std::abort();  // TerminateProcess does not return
+}
+
+// Keeps the thread joinable, and does not detach it. In winpthreads of mingw-w64 10, detaching a
+// thread that has just ended may free its entry while the thread still uses it: a later thread that
+// gets the entry never runs its work (docs/platforms.md).
+void leave_thread(std::thread thread) {
+  new std::thread(std::move(thread));  // lives as long as the program
 }
 
 }  // namespace vkh

@@ -5,7 +5,9 @@
 
 #include <cstdlib>
 #include <stdexcept>
+#include <vector>
 
+#include "host/base/begin_now.h"
 #include "host/base/output_file.h"
 #include "tests/support/files.h"
 #include "vkhausdorff/error.h"
@@ -41,6 +43,13 @@ size_t entries_of(const fs::path& path) {
 TEST_CASE("a name goes to a path and back") {
   for (const std::string& name : {std::string("a/b.obj"), kOdd + ".ply", std::string()})
     CHECK(name_of(path_of(name)) == name);
+}
+
+// A thread's work was lost on Windows where threads were detached that had just ended.
+TEST_CASE("work that ends at once is done once, on every thread that is left") {
+  std::vector<std::future<int>> results(500);
+  for (int i = 0; i < 500; ++i) results[static_cast<size_t>(i)] = begin_now([i] { return i; });
+  for (int i = 0; i < 500; ++i) CHECK(results[static_cast<size_t>(i)].get() == i);
 }
 
 TEST_CASE("a mesh of any name is read, and named by it") {
