@@ -74,7 +74,7 @@ class Reports(unittest.TestCase):
 
     def test_a_machine_without_a_driver(self):
         report = self.doctor(5, VK_DRIVER_FILES="/nowhere/icd.json", VK_ICD_FILENAMES="/nowhere/icd.json")
-        self.assertIn("no compatible driver", report["problem"])
+        self.assertIn("no compatible driver; install", report["problem"])
         self.assertEqual((report["devices"], report["device"]), ([], None))
 
     def test_a_machine_without_a_device(self):
