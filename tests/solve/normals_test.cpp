@@ -89,7 +89,7 @@ TEST_CASE("a feature on which the closest point lies is one in exact arithmetic"
   for (int i = 0; i < 20000; ++i) {
     const Corners3 t = any_triangle(random);
     const double size = glm::length(t[1] - t[0]);
-    const glm::dvec3 at = t[i % 3] + any_point(random, 3 * size);
+    const glm::dvec3 at = t[static_cast<size_t>(i % 3)] + any_point(random, 3 * size);
     const double radius = size * std::ldexp(1.0, -static_cast<int>(random.unit() * 40));
     PlacedCell cell{};
     for (glm::dvec3& p : cell.corners) p = at + any_point(random, radius);
