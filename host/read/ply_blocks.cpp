@@ -244,7 +244,8 @@ class BlockReader {
       FaceRows rows(*this, window.read(blocks[i].at, blocks[i + 1].at));
       rows.begin = rows.out = faces_.data() + blocks[i].triangle;
       rows.end = faces_.data() + blocks[i + 1].triangle;
-      for (uint64_t row = blocks[i].row; row < blocks[i + 1].row; ++row) rows.read_row();
+      uint64_t row = rows.read_triangles(blocks[i].row, blocks[i + 1].row);
+      for (; row < blocks[i + 1].row; ++row) rows.read_row();
       rows.check_end();
       count_read(source_, blocks[i + 1].at - blocks[i].at);
       polygons_ += rows.polygons;
@@ -261,6 +262,23 @@ class BlockReader {
   struct FaceRows {
     FaceRows(const BlockReader& r, std::string_view bytes)
         : reader(r), at(bytes.data()), stop(bytes.data() + bytes.size()) {}
+
+    /// Reads triangles whose rows hold nothing else, as most files have them, until a row differs.
+    /// Returns the first row that is left.
+    uint64_t read_triangles(uint64_t row, uint64_t stop_row) {
+      const std::vector<Property>& properties = reader.layout_.face->properties;
+      const Property& corners = properties[reader.layout_.corners];
+      if (properties.size() > 1 || size_of(*corners.list_count) != 1) return row;
+      return with_type(corners.type, [&](auto t) {
+        constexpr ptrdiff_t kBytes = 1 + 3 * sizeof(t);
+        for (; row < stop_row && stop - at >= kBytes && out != end && *at == 3; ++row) {
+          ++at;
+          fan<decltype(t)>(3);
+          at += kBytes - 1;
+        }
+        return row;
+      });
+    }
 
     void read_row() {
       const std::vector<Property>& properties = reader.layout_.face->properties;

@@ -3,12 +3,15 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <set>
 #include <vector>
 
+#include "host/mesh/make_mesh.h"
 #include "vkhausdorff/error.h"
 
 namespace {
@@ -123,6 +126,72 @@ TEST_CASE("make_mesh counts duplicates by position, in any order") {
   CHECK(mesh.counts.duplicate == 2);
   CHECK(mesh.counts.degenerate == 2);
   CHECK(mesh.faces.size() == 6);
+}
+
+namespace {
+
+// Counts by sorting and comparing all faces.
+uint64_t duplicates_by_set(const Mesh& mesh) {
+  using Position = std::array<double, 3>;
+  std::set<std::array<Position, 3>> known;
+  for (const glm::uvec3& f : mesh.faces) {
+    std::array<Position, 3> face;
+    for (int i = 0; i < 3; ++i) {
+      const glm::dvec3& p = mesh.vertices[f[i]];
+      face[static_cast<size_t>(i)] = {p.x, p.y, p.z};  // -0 and 0 are equal here, too
+    }
+    std::sort(face.begin(), face.end());
+    known.insert(face);
+  }
+  return mesh.faces.size() - known.size();
+}
+
+// Faces between vertices of which some share a position, and copies of faces in another order.
+Mesh with_repeats(size_t vertices, size_t faces, uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto below = [&](size_t bound) { return static_cast<uint32_t>(random() % bound); };
+  Mesh mesh;
+  for (size_t v = 0; v < vertices; ++v) {
+    const glm::dvec3 fresh(below(1 << 20), below(1 << 20), -0.0);
+    mesh.vertices.push_back(v > 0 && below(8) == 0 ? mesh.vertices[below(v)] + 0.0 : fresh);
+  }
+  for (size_t f = 0; f < faces; ++f) {
+    const glm::uvec3 fresh(below(vertices), below(vertices), below(vertices));
+    const glm::uvec3 old = f > 0 ? mesh.faces[below(f)] : fresh;
+    mesh.faces.push_back(below(6) > 0   ? fresh
+                         : below(2) > 0 ? glm::uvec3(old.y, old.x, old.z)
+                                        : old);
+  }
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("duplicates are as many as comparing all faces finds, on one thread and on several") {
+  const vkh::ThreadPool alone(1, {}, {}), several(4, {}, {});
+  for (const auto& [vertices, faces] :
+       {std::pair{1, 3}, {3, 40}, {50, 400}, {1000, 900}, {9000, 700}, {40'000, 70'000}}) {
+    CAPTURE(faces);
+    const Mesh mesh = with_repeats(static_cast<size_t>(vertices), static_cast<size_t>(faces), 11);
+    const uint64_t expected = duplicates_by_set(mesh);
+    CHECK(expected > 0);
+    for (const vkh::ThreadPool* pool : {&alone, &several})
+      CHECK(vkh::count_duplicates(mesh, vkh::Positions::kAny, *pool) == expected);
+  }
+}
+
+TEST_CASE("faces whose positions differ are no duplicates, however many share a vertex") {
+  const vkh::ThreadPool alone(1, {}, {}), several(4, {}, {});
+  Mesh fan;
+  constexpr uint32_t kFaces = 30'000;
+  for (uint32_t v = 0; v < kFaces + 2; ++v) fan.vertices.emplace_back(v, v % 7, -1.0 * v);
+  for (uint32_t f = 0; f < kFaces; ++f) fan.faces.emplace_back(0, f + 1, f + 2);
+  for (const vkh::ThreadPool* pool : {&alone, &several}) {
+    CHECK(vkh::count_duplicates(fan, vkh::Positions::kAny, *pool) == 0);
+    CHECK(vkh::count_duplicates(fan, vkh::Positions::kDiffer, *pool) == 0);
+  }
+  fan.faces.emplace_back(77, 0, 76);
+  CHECK(vkh::count_duplicates(fan, vkh::Positions::kDiffer, several) == 1);
 }
 
 TEST_CASE("collinearity is exact at every scale") {
