@@ -61,9 +61,10 @@ uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement
 
 // Delegates, here and below: the objects made so far are destroyed if a later step throws.
 Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-               Placement placement)
+               Placement placement, MemoryPool* pool)
     : Buffer() {
   device_ = &device;
+  pool_ = pool;
   size_ = size;
   const VulkanApi& vk = device.vk();
   VkBufferCreateInfo info{};
@@ -76,38 +77,56 @@ Buffer::Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage
              "creating a buffer");
   VkMemoryRequirements requirements;
   vk.GetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
+  const VkPhysicalDeviceMemoryProperties memory = memory_of(device);
+  const uint32_t type = memory_type(memory, requirements.memoryTypeBits, placement);
+  in_host_ = (memory.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) == 0;
+  allocate(requirements, type, has_address);
+  check(vk.BindBufferMemory(device.handle(), buffer_, range_ ? range_->memory : memory_,
+                            range_ ? range_->offset : 0),
+        "binding a buffer");
+  if (placement == Placement::kDevice) return;
+  if (range_) {
+    mapped_ = pool_->map(*range_);
+  } else {
+    check(vk.MapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping memory");
+  }
+}
+
+void Buffer::allocate(const VkMemoryRequirements& needs, uint32_t type, bool has_address) {
+  if (pool_ != nullptr) range_ = pool_->take(needs, type);
+  if (range_) return;
   VkMemoryAllocateInfo allocate{};
   allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   VkMemoryAllocateFlagsInfo flags{};
   flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
   flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
   if (has_address) allocate.pNext = &flags;
-  allocate.allocationSize = requirements.size;
-  const VkPhysicalDeviceMemoryProperties memory = memory_of(device);
-  allocate.memoryTypeIndex = memory_type(memory, requirements.memoryTypeBits, placement);
-  in_host_ = (memory.memoryTypes[allocate.memoryTypeIndex].propertyFlags &
-              VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT) == 0;
-  const VkResult result = vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory_);
+  allocate.allocationSize = needs.size;
+  allocate.memoryTypeIndex = type;
+  const VkResult result =
+      device_->vk().AllocateMemory(device_->handle(), &allocate, nullptr, &memory_);
   check_made(result, memory_,
-             ("allocating " + std::to_string(size >> 20) + " MiB " +
+             ("allocating " + std::to_string(size_ >> 20) + " MiB " +
               (in_host_ ? "of the host's memory for the device" : "on the device"))
                  .c_str());
-  check(vk.BindBufferMemory(device.handle(), buffer_, memory_, 0), "binding a buffer");
-  if (placement != Placement::kDevice) {
-    check(vk.MapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "mapping memory");
-  }
 }
 
 Buffer::~Buffer() {
   if (device_ == nullptr) return;
   device_->vk().DestroyBuffer(device_->handle(), buffer_, nullptr);
-  device_->vk().FreeMemory(device_->handle(), memory_, nullptr);
+  if (range_) {
+    pool_->give_back(*range_);
+  } else {
+    device_->vk().FreeMemory(device_->handle(), memory_, nullptr);
+  }
 }
 
 void Buffer::swap(Buffer& other) noexcept {
   std::swap(device_, other.device_);
   std::swap(buffer_, other.buffer_);
   std::swap(memory_, other.memory_);
+  std::swap(pool_, other.pool_);
+  std::swap(range_, other.range_);
   std::swap(size_, other.size_);
   std::swap(in_host_, other.in_host_);
   std::swap(mapped_, other.mapped_);
@@ -122,10 +141,10 @@ bool is_mappable(const Device& device, VkDeviceSize size) {
 }
 
 void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-          Placement placement) {
+          Placement placement, MemoryPool* pool) {
   if (buffer.size() >= size) return;
   buffer = Buffer();  // free first: the two need not fit at the same time
-  buffer = Buffer(device, size, usage, placement);
+  buffer = Buffer(device, size, usage, placement, pool);
 }
 
 Submitter::Submitter(const Device& device) : Submitter(device, Empty{}) {

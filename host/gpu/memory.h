@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <utility>
 
+#include "host/gpu/memory_pool.h"
 #include "vkhausdorff/device.h"
 
 namespace vkh {
@@ -16,12 +18,14 @@ enum class Placement { kDevice, kMapped, kUpload, kReadback };
 /// DeviceError.
 uint32_t memory_type(const Device& device, uint32_t allowed, Placement placement);
 
-/// A buffer bound to its own allocation; move-only. Host-visible ones stay mapped.
+/// A buffer bound to its own allocation, or to a range of a pool; move-only. Host-visible ones stay
+/// mapped.
 class Buffer {
  public:
   Buffer() = default;
-  /// Throws MemoryError if there is not enough memory.
-  Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement);
+  /// Throws MemoryError if there is not enough memory. The pool, if there is one, outlives it.
+  Buffer(const Device& device, VkDeviceSize size, VkBufferUsageFlags usage, Placement placement,
+         MemoryPool* pool = nullptr);
   ~Buffer();
   Buffer(Buffer&& other) noexcept { swap(other); }
   Buffer& operator=(Buffer&& other) noexcept {
@@ -36,9 +40,12 @@ class Buffer {
 
  private:
   void swap(Buffer& other) noexcept;
+  void allocate(const VkMemoryRequirements& needs, uint32_t type, bool has_address);
   const Device* device_ = nullptr;
   VkBuffer buffer_ = VK_NULL_HANDLE;
-  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;  // its own
+  MemoryPool* pool_ = nullptr;
+  std::optional<MemoryPool::Range> range_;  // of the pool
   VkDeviceSize size_ = 0;
   bool in_host_ = false;
   void* mapped_ = nullptr;
@@ -50,7 +57,7 @@ bool is_mappable(const Device& device, VkDeviceSize size);
 
 /// Makes `buffer` at least `size` bytes; its content is lost if it grows.
 void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-          Placement placement);
+          Placement placement, MemoryPool* pool = nullptr);
 
 /// One command buffer, one fence, one pool of timestamps.
 class Submitter {

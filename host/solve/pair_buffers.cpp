@@ -60,9 +60,10 @@ VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
 
 // Allocates in the device's memory, or in the host's if `policy` allows it and the device has no
 // more.
-void take_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, MemoryPolicy policy) {
+void take_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, MemoryPolicy policy,
+                 MemoryPool* pool = nullptr) {
   try {
-    grow(buffer, device, bytes, kWorking, Placement::kDevice);
+    grow(buffer, device, bytes, kWorking, Placement::kDevice, pool);
   } catch (const MemoryError&) {
     if (policy == MemoryPolicy::kDevice) throw;
     buffer = Buffer(device, bytes, kWorking, Placement::kUpload);
@@ -88,11 +89,11 @@ void HierarchyMemory::take(const Device& device, const VkhHierarchyRequirements&
 }
 
 void HierarchyMemory::grow(const Device& device, const VkhHierarchyRequirements& needed,
-                           MemoryPolicy policy) {
+                           MemoryPolicy policy, MemoryPool* pool) {
   for (uint32_t i = 0; i < needed.rangeCount; ++i)
     take_buffer(ranges_[i], device,
                 policy == MemoryPolicy::kDevice ? roomy(needed.ranges[i]) : needed.ranges[i],
-                policy);
+                policy, pool);
   for (uint32_t i = needed.rangeCount; i < ranges_.size(); ++i) ranges_[i] = Buffer();
 }
 
@@ -141,13 +142,13 @@ void PairBuffers::take_meshes(VkDeviceSize bytes, MemoryPolicy policy) {
     return grow(meshes_, device_, bytes, kWorking, Placement::kUpload);
   if (meshes_.size() < bytes && is_mappable(device_, bytes)) {
     try {
-      grow(meshes_, device_, bytes, kWorking, Placement::kMapped);
+      grow(meshes_, device_, bytes, kWorking, Placement::kMapped, pool_);
     } catch (const MemoryError&) {
     }
   }
-  grow(meshes_, device_, bytes, kWorking, Placement::kDevice);
+  grow(meshes_, device_, bytes, kWorking, Placement::kDevice, pool_);
   if (meshes_.mapped() == nullptr)
-    grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload);
+    grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload, pool_);
 }
 
 // Either mesh may be missing.
@@ -171,7 +172,7 @@ void PairBuffers::place_b(const VkhHierarchyRequirements& needed, const RunInput
     problem_.b = in.resident->view();
     return;
   }
-  hierarchy_.grow(device_, needed, policy);
+  hierarchy_.grow(device_, needed, policy, pool_);
   problem_.b = hierarchy_.view();
   problem_.b.faceCount = mesh_b_.faceCount;
   problem_.b.vertexCount = mesh_b_.vertexCount;
@@ -205,7 +206,7 @@ VkDeviceSize PairBuffers::take_workspace(const VkhWorkspaceRequirements& needed,
   const VkDeviceSize bytes =
       std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes, needed.minimum, needed.maximum);
   if (budget.policy == MemoryPolicy::kDevice) {
-    take_buffer(workspace_, device_, std::max(bytes, scratch), MemoryPolicy::kDevice);
+    take_buffer(workspace_, device_, std::max(bytes, scratch), MemoryPolicy::kDevice, pool_);
     scratch_ = {workspace_.handle(), 0, workspace_.size()};
     return bytes;
   }
@@ -240,8 +241,9 @@ void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
   VkhHierarchyRequirements hierarchy{};
   if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
   place_meshes(in.a, b, budget.policy);
-  take_buffer(report_, device_, kReportBytes, budget.policy);
-  grow(readback_, device_, kReportBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
+  take_buffer(report_, device_, kReportBytes, budget.policy, pool_);
+  grow(readback_, device_, kReportBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback,
+       pool_);
   place_areas(in, out, budget.policy);
   const VkDeviceSize bytes = take_workspace(workspace, hierarchy.scratchSize, in, budget);
   place_b(hierarchy, in, budget.policy);
@@ -257,7 +259,7 @@ VkhMemory PairBuffers::take_room(VkDeviceSize bytes) {
   const bool is_own = problem_.workspace.buffer == larger_.handle();
   if (is_own || larger_.size() < bytes) {
     if (!is_own) larger_ = Buffer();
-    Buffer made(device_, bytes, kWorking, Placement::kDevice);
+    Buffer made(device_, bytes, kWorking, Placement::kDevice, pool_);
     std::swap(larger_, made);
     if (is_own) left_ = std::move(made);  // until its contents have been copied
   }

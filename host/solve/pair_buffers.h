@@ -36,7 +36,8 @@ class HierarchyMemory {
   /// Makes each as large as is needed, and no larger.
   void take(const Device& device, const VkhHierarchyRequirements& needed, MemoryPolicy policy);
   /// Makes each at least as large, with room for the next BVH; frees those that are not needed.
-  void grow(const Device& device, const VkhHierarchyRequirements& needed, MemoryPolicy policy);
+  void grow(const Device& device, const VkhHierarchyRequirements& needed, MemoryPolicy policy,
+            MemoryPool* pool);
   VkhHierarchy view() const;
   VkDeviceSize host_bytes() const;  ///< bytes in the host's memory
 
@@ -92,7 +93,8 @@ struct RunOutput {
 
 class PairBuffers {
  public:
-  explicit PairBuffers(const Device& device) : device_(device) {}
+  /// Takes memory from the pool, if there is one, which then outlives it.
+  PairBuffers(const Device& device, MemoryPool* pool) : device_(device), pool_(pool) {}
 
   /// Takes the pair: allocates its buffers and, if they are mapped, writes its meshes. Throws
   /// MemoryError if there is no room for it, DeviceError if the device cannot have it.
@@ -148,6 +150,7 @@ class PairBuffers {
   VkhMemory take_room(VkDeviceSize bytes);
 
   const Device& device_;
+  MemoryPool* pool_;
   HierarchyMemory hierarchy_;
   Buffer staging_, meshes_, workspace_, report_, readback_, areas_, areas_readback_;
   Buffer cells_, bounds_;  // for a survey, and for points and their closest faces

@@ -79,6 +79,7 @@ Runner::Runner(const Device& device, const std::filesystem::path& cache_folder)
     : device_(device),
       cache_(device, cache_folder),
       submitter_(device),
+      pool_(device),
       names_(Submitter::kTimestamps) {}
 
 void Runner::make_ready(uint32_t switches) {
@@ -121,7 +122,9 @@ void Runner::buffers(size_t count, const std::function<void(MemoryPolicy)>& take
   const bool has_kept = !buffers_.empty();
   const auto try_with = [&](MemoryPolicy policy) {
     policy_ = policy;
-    while (buffers_.size() < count) buffers_.push_back(std::make_unique<PairBuffers>(device_));
+    MemoryPool* const pool = count > 1 && policy == MemoryPolicy::kDevice ? &pool_ : nullptr;
+    while (buffers_.size() < count)
+      buffers_.push_back(std::make_unique<PairBuffers>(device_, pool));
     take(policy);
   };
   try {

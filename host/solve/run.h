@@ -50,6 +50,7 @@ class Runner {
   PipelineCache cache_;
   std::map<uint32_t, ContextHandle> contexts_;
   Submitter submitter_;
+  MemoryPool pool_;  // of buffers_, where there are several
   std::vector<std::unique_ptr<PairBuffers>> buffers_;
   MemoryPolicy policy_ = MemoryPolicy::kDevice;  // the policy of buffers_
   VkhContext context_ = nullptr;
