@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/base/large_pages.h"
 #include "host/base/parallel.h"
 
 namespace vkh {
@@ -62,7 +63,9 @@ template <class T>
 class Array {
  public:
   Array() = default;
-  explicit Array(size_t size) : data_(new T[size]), size_(size) {}
+  explicit Array(size_t size) : data_(new T[size]), size_(size) {
+    prefer_large_pages(data_.get(), size * sizeof(T));
+  }
 
   size_t size() const { return size_; }
   T* data() const { return data_.get(); }
@@ -91,6 +94,7 @@ template <class T>
 void resize_together(const ThreadPool& pool, std::vector<T>& vector, size_t size) {
   constexpr size_t kPage = 4096;
   vector.reserve(size);
+  prefer_large_pages(vector.data(), size * sizeof(T));
   auto* const bytes = reinterpret_cast<std::byte*>(vector.data());
   pool.for_parts(size, [&](size_t, size_t begin, size_t end) {
     for (size_t at = begin * sizeof(T); at < end * sizeof(T); at += kPage)
