@@ -140,11 +140,10 @@ bool is_mappable(const Device& device, VkDeviceSize size) {
          size <= memory.memoryHeaps[memory.memoryTypes[*type].heapIndex].size / 4;
 }
 
-void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-          Placement placement, MemoryPool* pool) {
+void grow(Buffer& buffer, const Device& device, VkDeviceSize size, const BufferUse& use) {
   if (buffer.size() >= size) return;
   buffer = Buffer();  // free first: the two need not fit at the same time
-  buffer = Buffer(device, size, usage, placement, pool);
+  buffer = Buffer(device, size, use.flags, use.placement, use.pool);
 }
 
 Submitter::Submitter(const Device& device) : Submitter(device, Empty{}) {

@@ -55,9 +55,15 @@ class Buffer {
 /// memory, or if the size is small beside the part that it sees.
 bool is_mappable(const Device& device, VkDeviceSize size);
 
+/// The use of a buffer, and the pool that it takes memory from, if any.
+struct BufferUse {
+  VkBufferUsageFlags flags;
+  Placement placement;
+  MemoryPool* pool = nullptr;
+};
+
 /// Makes `buffer` at least `size` bytes; its content is lost if it grows.
-void grow(Buffer& buffer, const Device& device, VkDeviceSize size, VkBufferUsageFlags usage,
-          Placement placement, MemoryPool* pool = nullptr);
+void grow(Buffer& buffer, const Device& device, VkDeviceSize size, const BufferUse& use);
 
 /// One command buffer, one fence, one pool of timestamps.
 class Submitter {

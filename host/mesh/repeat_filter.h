@@ -64,8 +64,8 @@ Array<uint32_t> chosen_of(const ThreadPool& pool, size_t count, const IsChosen& 
       if (is_chosen(static_cast<uint32_t>(e))) parts[part].push_back(static_cast<uint32_t>(e));
     }
   });
-  std::vector<size_t> starts;
-  for (const std::vector<uint32_t>& part : parts) starts.push_back(part.size());
+  std::vector<size_t> starts(parts.size());
+  for (size_t part = 0; part < parts.size(); ++part) starts[part] = parts[part].size();
   Array<uint32_t> chosen(starts_of(starts));
   pool.for_each(parts.size(), [&](size_t part) {
     std::copy(parts[part].begin(), parts[part].end(), chosen.begin() + starts[part]);

@@ -63,7 +63,7 @@ VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
 void take_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, MemoryPolicy policy,
                  MemoryPool* pool = nullptr) {
   try {
-    grow(buffer, device, bytes, kWorking, Placement::kDevice, pool);
+    grow(buffer, device, bytes, {kWorking, Placement::kDevice, pool});
   } catch (const MemoryError&) {
     if (policy == MemoryPolicy::kDevice) throw;
     buffer = Buffer(device, bytes, kWorking, Placement::kUpload);
@@ -139,16 +139,16 @@ void PairBuffers::take_meshes(VkDeviceSize bytes, MemoryPolicy policy) {
   uploaded_bytes_ = bytes;
   bytes = roomy(bytes);
   if (policy == MemoryPolicy::kHost)  // they are read once
-    return grow(meshes_, device_, bytes, kWorking, Placement::kUpload);
+    return grow(meshes_, device_, bytes, {kWorking, Placement::kUpload});
   if (meshes_.size() < bytes && is_mappable(device_, bytes)) {
     try {
-      grow(meshes_, device_, bytes, kWorking, Placement::kMapped, pool_);
+      grow(meshes_, device_, bytes, {kWorking, Placement::kMapped, pool_});
     } catch (const MemoryError&) {
     }
   }
-  grow(meshes_, device_, bytes, kWorking, Placement::kDevice, pool_);
+  grow(meshes_, device_, bytes, {kWorking, Placement::kDevice, pool_});
   if (meshes_.mapped() == nullptr)
-    grow(staging_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload, pool_);
+    grow(staging_, device_, bytes, {VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload, pool_});
 }
 
 // Either mesh may be missing.
@@ -242,8 +242,8 @@ void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
   if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
   place_meshes(in.a, b, budget.policy);
   take_buffer(report_, device_, kReportBytes, budget.policy, pool_);
-  grow(readback_, device_, kReportBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback,
-       pool_);
+  grow(readback_, device_, kReportBytes,
+       {VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback, pool_});
   place_areas(in, out, budget.policy);
   const VkDeviceSize bytes = take_workspace(workspace, hierarchy.scratchSize, in, budget);
   place_b(hierarchy, in, budget.policy);
@@ -320,7 +320,7 @@ void PairBuffers::place_areas(const RunInput& in, RunOutput& out, MemoryPolicy p
   out.areas.resize(2 * in.a.mesh->faces.size());
   const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
   take_buffer(areas_, device_, bytes, policy);
-  grow(areas_readback_, device_, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback);
+  grow(areas_readback_, device_, bytes, {VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback});
 }
 
 void PairBuffers::record_upload(VkCommandBuffer commands) const {
@@ -348,9 +348,9 @@ void PairBuffers::read(RunOutput& out) const {
 VkhCells PairBuffers::take_cells(const CellBatch& batch) {
   const auto count = static_cast<uint32_t>(batch.bounds.size());
   const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-  grow(bounds_, device_, roomy(batch.bounds.size_bytes()), usage, Placement::kReadback);
+  grow(bounds_, device_, roomy(batch.bounds.size_bytes()), {usage, Placement::kReadback});
   if (!batch.cells.empty()) {
-    grow(cells_, device_, roomy(batch.cells.size_bytes()), usage, Placement::kUpload);
+    grow(cells_, device_, roomy(batch.cells.size_bytes()), {usage, Placement::kUpload});
     std::memcpy(cells_.mapped(), batch.cells.data(), batch.cells.size_bytes());
   }
   return {.cellBuffer = batch.cells.empty() ? VK_NULL_HANDLE : cells_.handle(),
@@ -367,8 +367,8 @@ void PairBuffers::read_bounds(const CellBatch& batch) const {
 
 VkhClosestQuery PairBuffers::take_points(const PointBatch& batch) {
   const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-  grow(bounds_, device_, roomy(batch.found.size_bytes()), usage, Placement::kReadback);
-  grow(cells_, device_, roomy(batch.points.size_bytes()), usage, Placement::kUpload);
+  grow(bounds_, device_, roomy(batch.found.size_bytes()), {usage, Placement::kReadback});
+  grow(cells_, device_, roomy(batch.points.size_bytes()), {usage, Placement::kUpload});
   std::memcpy(cells_.mapped(), batch.points.data(), batch.points.size_bytes());
   return {.pointBuffer = cells_.handle(),
           .pointOffset = 0,
