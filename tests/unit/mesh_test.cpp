@@ -169,10 +169,13 @@ Mesh with_repeats(size_t vertices, size_t faces, uint64_t seed) {
 
 TEST_CASE("duplicates are as many as comparing all faces finds, on one thread and on several") {
   const vkh::ThreadPool alone(1, {}, {}), several(4, {}, {});
-  for (const auto& [vertices, faces] :
-       {std::pair{1, 3}, {3, 40}, {50, 400}, {1000, 900}, {9000, 700}, {40'000, 70'000}}) {
-    CAPTURE(faces);
-    const Mesh mesh = with_repeats(static_cast<size_t>(vertices), static_cast<size_t>(faces), 11);
+  struct Sizes {
+    size_t vertices, faces;
+  };
+  for (const Sizes& of : {Sizes{1, 3}, Sizes{3, 40}, Sizes{50, 400}, Sizes{1000, 900},
+                          Sizes{9000, 700}, Sizes{40'000, 70'000}}) {
+    CAPTURE(of.faces);
+    const Mesh mesh = with_repeats(of.vertices, of.faces, 11);
     const uint64_t expected = duplicates_by_set(mesh);
     CHECK(expected > 0);
     for (const vkh::ThreadPool* pool : {&alone, &several})
