@@ -55,8 +55,7 @@ class Estimates {
 };
 
 /// Adds to each figure that the estimates serve, and to the share at each distance, what it
-/// probably is. `percentiles`: the
-/// enclosures of the percentiles, in the frame.
+/// probably is. `percentiles`: the enclosures of the percentiles, in the frame.
 void add_estimates(const Estimates& estimates, const SurveyedPair& pair,
                    std::span<const Enclosure> percentiles, Statistics& statistics);
 

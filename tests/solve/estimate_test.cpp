@@ -154,6 +154,20 @@ TEST_CASE("shares alone have the estimates that they have beside all figures") {
   CHECK_FALSE(alone.statistics->mean.estimate);
 }
 
+// All faces are bounded when it is called off, and there is no effort for more.
+TEST_CASE("a survey is called off while it estimates coarse cells, and its figures hold") {
+  const Mesh a = icosphere(1.1, 0), b = icosphere(1, 4);
+  SurveyOptions options = statistics_alone({0.05});
+  options.effort = 0;
+  options.goes_on = [&](size_t bounded) { return bounded < a.faces.size(); };
+  const SurveyResult r = survey_of(a, b, options);
+  CHECK(r.ended == SurveyEnd::kCancelled);
+  CHECK(r.bounded == a.faces.size());
+  REQUIRE(r.statistics);
+  gain(r.statistics->mean, 0);
+  gain(r.statistics->bands[0].share, 0);
+}
+
 TEST_CASE("estimates are nearer to dense samples than the middles of intervals") {
   const std::vector<std::pair<Mesh, Mesh>> pairs = {
       {height_field(12, 1), height_field(12, 3)},
