@@ -154,6 +154,14 @@ void ClosestSearch::keep(size_t number, uint32_t face, double lower, const FaceP
   result_.faces[number] = face;
 }
 
+// Says whether a distance is enclosed more widely than by a search that went to its end, which
+// leaves 1e-6 of the distance and of a face (vkhausdorff.h); a face is at most 4 wide in the frame.
+// The device bounds faces by their boxes where more are equally near than it examines.
+bool is_wide(const Frame& frame, double lower, double upper) {
+  const double width = upper - lower;
+  return width > 0x1p-10 * upper && width > frame.length_down(0x1p-16);
+}
+
 // The device's lower end is of the stored point and mesh. The upper end is measured here, for the
 // coordinates as given: the device has only named the face.
 void ClosestSearch::settle(const FramedB& b, size_t number, const gpu::ClosestFace& found) {
@@ -165,11 +173,14 @@ void ClosestSearch::settle(const FramedB& b, size_t number, const gpu::ClosestFa
   const double lower =
       add_down(static_cast<double>(found.base), static_cast<double>(found.lower_above));
   const double down = b.frame.length_down(std::max(0.0, add_down(lower, -moved)));
-  keep(number, found.face, down, on_face(number, found.face));
+  const FacePoint at = on_face(number, found.face);
+  if (is_wide(b.frame, b.frame.length_down(std::max(0.0, lower) + moved), at.upper))
+    return measure_all(number);
+  keep(number, found.face, down, at);
 }
 
-// Measures every face here, where a driver ended the device's search early: on lavapipe, for points
-// that are about equally far from most of B.
+// Measures every face here, where the device's search did not: a driver ended it early, as lavapipe
+// does, or too many faces are about equally near.
 void ClosestSearch::measure_all(size_t number) {
   const glm::dvec3 p = question_.points[number];
   FacePoint best{.point = {}, .lower = 0, .upper = std::numeric_limits<double>::infinity()};
