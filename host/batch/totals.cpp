@@ -133,7 +133,7 @@ void Totals::print(std::ostream& out, const Run& run) const {
       count_of(done, done == 1 ? "pair" : "pairs") + " in " + number("%.2f s", run.wall_s);
   if (done > 0 && run.wall_s > 0)
     now += ", " + number("%.4g a second", static_cast<double>(done) / run.wall_s);
-  if (kept_ > 0) now += "; " + count_of(kept_, "were done before");
+  if (kept_ > 0) now += "; " + count_of(kept_, kept_ == 1 ? "was done before" : "were done before");
   print_row(out, "pairs", now);
   print_row(out, "time",
             "reading " + number("%.2f s", run.read_s) + " of all threads, devices ready after " +
