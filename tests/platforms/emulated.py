@@ -83,16 +83,6 @@ class Windows(Platform):
         self.environment |= {"WINEPREFIX": str(self.prefix), "WINEDEBUG": "-all", "WINEARCH": "win64",
                              "WINEDLLOVERRIDES": "mscoree,mshtml=;winemenubuilder.exe=d"}
 
-    def run(self, program: str, *arguments: str, folder=None) -> subprocess.CompletedProcess:
-        """Runs once more if it was aborted without output (exit code 3): seen once in some hundred
-        runs, on a machine that had four times more to do than it can, and not again in fifty runs
-        of the same program. A program that always aborts still fails."""
-        done = super().run(program, *arguments, folder=folder)
-        if done.returncode == 3 and not done.stdout and not done.stderr:
-            print(f"{self.name}: {program} {' '.join(arguments)} was aborted without a word; once more", flush=True)
-            done = super().run(program, *arguments, folder=folder)
-        return done
-
     @contextlib.contextmanager
     def ready(self):
         """A display, without which Wine has no Vulkan; and a folder that Wine takes for a machine."""
