@@ -138,8 +138,9 @@ void check_subgroups(const DeviceFacts& facts, Reasons& reasons) {
   reasons.unless((s.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
                      (s.supportedOperations & needed) == needed,
                  "subgroup ballot, arithmetic and shuffle in compute shaders are missing");
-  reasons.unless(s.subgroupSize >= gpu::kNarrowestSubgroup && s.subgroupSize <= 64,
-                 "subgroups are " + std::to_string(s.subgroupSize) + " wide, not 4 to 64");
+  reasons.unless(
+      s.subgroupSize >= gpu::kNarrowestSubgroup && s.subgroupSize <= gpu::kWidestSubgroup,
+      "subgroups are " + std::to_string(s.subgroupSize) + " wide, not 4 to 128");
 }
 
 }  // namespace

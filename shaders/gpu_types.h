@@ -56,6 +56,7 @@ VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangl
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
 VKH_CONST uint kNarrowestSubgroup = 4u;  // width on a CPU with vectors of 128 bits
+VKH_CONST uint kWidestSubgroup = 128u;   // the lanes of a ballot
 // bvh_box: its workgroup, and faces of an invocation.
 VKH_CONST uint kBoxGroup = 256u;
 VKH_CONST uint kBoxFaces = 4u;

@@ -63,8 +63,7 @@ REFUSED = {
     "workgroups of 128": (limits(maxComputeWorkGroupInvocations=128, maxComputeWorkGroupSize0=128), "workgroups of 256 are not possible"),
     "few buffers a kernel": (limits(maxPerStageDescriptorStorageBuffers=8), "storage buffers a kernel are not possible"),
     "little shared memory": (limits(maxComputeSharedMemorySize=8192), "bytes of shared memory are missing"),
-    "subgroups of 2": (limits(subgroupSize=2), "subgroups are 2 wide, not 4 to 64"),
-    "subgroups of 128": (limits(subgroupSize=128), "subgroups are 128 wide, not 4 to 64"),
+    "subgroups of 2": (limits(subgroupSize=2), "subgroups are 2 wide, not 4 to 128"),
     "a small binding": (limits(maxStorageBufferRange=1 << 15), "too large"),
 }
 
