@@ -3,10 +3,10 @@
 #include <array>
 #include <cstddef>
 
-#include "draw/mesh_frag.h"
-#include "draw/mesh_vert.h"
 #include "host/base/parallel.h"
 #include "host/gpu/vulkan_api.h"
+#include "kernels/draw/mesh_frag.h"
+#include "kernels/draw/mesh_vert.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh::drawing {
