@@ -81,13 +81,21 @@ class Recipes(unittest.TestCase):
                 for path in recipe.read_text().split("path: |\n")[1].split():
                     self.assertTrue((here / path).exists(), path)
 
-    def test_the_image_takes_the_package_that_a_release_writes(self):
-        lines = (RECIPES / "Dockerfile").read_text().replace("\\\n", "").splitlines()
-        copied = next(line.split()[1] for line in lines if line.startswith("COPY "))
+    def test_each_takes_the_package_that_a_release_writes_for_its_system(self):
         release = (RECIPES.parents[1] / "tools/release").read_text()
         pattern = re.search(r'files/(\$\S+\.deb)"', release)[1]
-        name = pattern.replace("${name%_*}", "vkhausdorff_0.2.0").replace("${system}", "debian12").replace("${name##*_}", "amd64")
-        self.assertTrue(fnmatch.fnmatch(name, copied), f"{name} is not {copied}")
+        packages = {system: pattern.replace("${name%_*}", "vkhausdorff_0.2.0").replace("${system}", system).replace("${name##*_}", "amd64")
+                    for system in ("debian12", "ubuntu24.04")}
+        for recipe, system in (("Dockerfile", "debian12"), ("gitlab.yml", "debian12"), ("github.yml", "ubuntu24.04"), ("github-folders.yml", "ubuntu24.04")):
+            taken = re.search(r"(?:COPY |\./)(vkhausdorff_\S+\.deb)", (RECIPES / recipe).read_text())[1]
+            self.assertEqual([name for name in packages if fnmatch.fnmatch(packages[name], taken)], [system], recipe)
+
+    def test_workflows_say_when_they_run(self):
+        for name in ("github.yml", "github-folders.yml"):
+            self.assertTrue((RECIPES / name).read_text().startswith("on: [push]\njobs:\n"), name)
+
+    def test_the_image_has_a_driver(self):
+        lines = (RECIPES / "Dockerfile").read_text().replace("\\\n", "").splitlines()
         self.assertTrue(any(line.startswith("RUN ") and "mesa-vulkan-drivers" in line and "/tmp/vkhausdorff_*.deb" in line for line in lines))
 
 

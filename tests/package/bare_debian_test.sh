@@ -62,13 +62,13 @@ use_packages() {
   local root=$1
   "$source/tools/release" --to "$folder/release" --tree "$build" deb >"$folder/release.log" 2>&1 || { cat "$folder/release.log" >&2; fail "tools/release deb"; }
   mkdir "$root/release" "$root/use"
-  cp "$folder"/release/files/{lib,}vkhausdorff*.deb "$root/release"
+  cp "$folder"/release/files/*.deb "$root/release"
   cp "$source"/tests/package/consumer/* "$root/use"
   printf 'OFF\n3 1 0\n0 0 0.25\n1 0 0.25\n0 1 0.25\n3 0 1 2\n' >"$root/use/a.off"
   printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >"$root/use/b.off"
   step install "$root" enter "$root" bash -c 'apt-get -q update && DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends \
-    g++ cmake make glslang-tools mesa-vulkan-drivers /release/*.deb'
-  step use "$root" enter "$root" bash -ec 'cd /use && cmake -S . -B out -DCMAKE_BUILD_TYPE=Release && cmake --build out && out/engine && out/host b.off a.off && vkhausdorff doctor'
+    g++ cmake make glslang-tools python3 mesa-vulkan-drivers /release/*.deb'
+  step use "$root" enter "$root" bash -ec 'cd /use && cmake -S . -B out -DCMAKE_BUILD_TYPE=Release && cmake --build out && out/engine && out/host b.off a.off && vkhausdorff doctor && python3 -c "import vkhausdorff; print(vkhausdorff.distance(\"b.off\", \"a.off\"))"'
   grep -qE '^0\.2[45][0-9]* <= h\(a.off, B\) <= 0\.25[0-9]*: closed$' "$folder/use.log" || { cat "$folder/use.log"; fail "the host's program"; }
 }
 
