@@ -101,8 +101,9 @@ void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu:
     // The distance to the triangle found is then taken anew from 48 bits: rounded up, or next to
     // the surface bounded from below, to 48 bits of coordinates but for needles and the like.
     CHECK_MESSAGE(found >= (there > 1e-4 ? there - 1e-13 : 0.0), found << " for " << there);
-    // A foot that is off sideways by rounding costs little, but next to the surface.
-    CHECK_MESSAGE(found <= std::hypot(there, 1e-6) * (1 + 1e-5), found << " for " << there);
+    // A foot that is off sideways by rounding costs little, but next to the surface; 3.5e-6 was
+    // seen on a sliver.
+    CHECK_MESSAGE(found <= std::hypot(there, 5e-6) * (1 + 1e-5), found << " for " << there);
   } else {
     CHECK_MESSAGE(std::abs(found - least) <= allowed(least), found << " for " << least);
   }

@@ -45,7 +45,6 @@ class Platform:
     suffix = ""
     tests = "tests/platforms/cross"
     limit = 300  # seconds, for one program
-    usual = rb"(?!)"  # how lines of the platform's own on stderr begin: none
     versions: list[str] = []
 
     def compile(self, targets: list[str]) -> None:
@@ -53,7 +52,7 @@ class Platform:
         generator = [] if (self.build / "CMakeCache.txt").exists() else ["-G", "Ninja"]
         for words in (["cmake", "--preset", self.name, *generator, *launcher, f"-DVKH_KERNELS={self.native}/generated/kernels"],
                       ["cmake", "--build", str(self.build), "-j", str(os.cpu_count()), "--target", *targets]):
-            done = subprocess.run(words, cwd=self.source, capture_output=True, text=True, timeout=1200)
+            done = subprocess.run(words, cwd=self.source, capture_output=True, text=True, timeout=3600)
             if done.returncode:
                 raise AssertionError(f"{' '.join(words)}\n{done.stdout[-4000:]}{done.stderr[-2000:]}")
 
@@ -152,8 +151,6 @@ class Libcxx(Platform):
     """Clang with LLVM's C++ library: no extension of GNU's, and nothing of libstdc++ (docs/platforms.md)."""
 
     tests = "tests"
-    # lavapipe's LLVM gives LLVM's unwinder, which libc++ brings, frames in the form that GCC's takes.
-    usual = rb"libunwind: __unw_add_dynamic_fde: bad fde"
 
     def __init__(self, source: pathlib.Path, native: pathlib.Path):
         super().__init__("libcxx", source, native)

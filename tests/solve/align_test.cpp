@@ -2,6 +2,7 @@
 #include "vkhausdorff/align.h"
 
 #include <cmath>
+#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "host/mesh/default_pair.h"

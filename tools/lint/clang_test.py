@@ -1,7 +1,6 @@
 """Clang reads the product without a warning, room by room as it is compiled (cmake/Unity.cmake).
 
-usage: clang_test.py BUILD SOURCE [--all | --libcxx]. --all: each source by itself, those of tests and tools,
-too. --libcxx: the whole tree with LLVM's C++ library, and extensions of GNU's are errors, but for two files with CGAL.
+usage: clang_test.py BUILD SOURCE [--all]. --all: each source by itself, those of tests and tools, too.
 Exit code 77: no clang here.
 """
 
@@ -16,9 +15,6 @@ import sys
 
 import alone
 
-# std::stop_token; and std::unary_function, which Boost's hash of Debian 12 derives from
-LIBCXX = ("-stdlib=libc++", "-fexperimental-library", "-D_LIBCPP_ENABLE_CXX17_REMOVED_UNARY_BINARY_FUNCTION")
-STRICT = ("-Wgnu", "-pedantic-errors", "-Wno-keyword-macro")  # the model's tests make float another type (lib_device.h)
 PRODUCT = ("CMakeFiles", "host", "check", "examples")  # the engine and the checker are targets of the top folder
 # Options that clang does not have.
 OURS = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-subobject-linkage", "--param=inline-unit-growth=400")
@@ -42,27 +38,16 @@ def command_of(entry: dict, compilers: dict) -> list[str]:
     return [*compilers[language], *kept, "-fsyntax-only", "-Werror", file]
 
 
-def compilers_of(is_libcxx: bool) -> dict | None:
+def compilers() -> dict | None:
     """The words that start each compiler; None where one is missing."""
-    version = "-19" if is_libcxx else ""
-    found = {"c": shutil.which(f"clang{version}"), "c++": shutil.which(f"clang++{version}")}
-    if not all(found.values()):
-        return None
-    if not is_libcxx:
-        return {language: [path] for language, path in found.items()}
-    library = pathlib.Path(found["c++"]).resolve().parents[1] / "include/c++/v1/__config"
-    return {"c": [found["c"], *STRICT], "c++": [found["c++"], *LIBCXX, *STRICT]} if library.exists() else None
+    found = {"c": shutil.which("clang"), "c++": shutil.which("clang++")}
+    return {language: [path] for language, path in found.items()} if all(found.values()) else None
 
 
 def folder_of(entry: dict) -> str:
     """The top folder of its object file, which is that of its target."""
     words = shlex.split(entry["command"])
     return words[words.index("-o") + 1].split("/")[0]
-
-
-def needs_cgal(entry: dict) -> bool:
-    """Clang 19 refuses CGAL's headers of Debian 12 (boost/graph/iterator.h)."""
-    return "#include <CGAL/" in pathlib.Path(entry["file"]).read_text()
 
 
 def check(entry: dict, compilers: dict) -> str:
@@ -72,24 +57,22 @@ def check(entry: dict, compilers: dict) -> str:
 
 def main() -> int:
     build, source = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
-    is_libcxx = "--libcxx" in sys.argv[3:]
-    compilers = compilers_of(is_libcxx)
-    if not compilers:
-        print(f"clang_test: skipped, no clang{' 19 with libc++' if is_libcxx else ''}")
+    found = compilers()
+    if not found:
+        print("clang_test: skipped, no clang")
         return 77
     is_alone = "--all" in sys.argv[3:]
-    every = is_alone or is_libcxx
     build = alone.configure(build, source, units=not is_alone)
     entries = json.loads((build / "compile_commands.json").read_text())
     # Embedded kernels are arrays of numbers, and those of the build folder.
-    entries = [e for e in entries if "generated" not in e["file"] and (every or folder_of(e) in PRODUCT)]
-    unique = list({e["file"]: e for e in entries if not (is_libcxx and needs_cgal(e))}.values())
-    if len(unique) < (200 if every else 20):
+    entries = [e for e in entries if "generated" not in e["file"] and (is_alone or folder_of(e) in PRODUCT)]
+    unique = list({e["file"]: e for e in entries}.values())
+    if len(unique) < (200 if is_alone else 20):
         print(f"clang_test: {build} compiles {len(unique)} files of {source}: too few to be all")
         return 1
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         wrong = 0
-        for text in filter(None, pool.map(lambda e: check(e, compilers), unique)):
+        for text in filter(None, pool.map(lambda e: check(e, found), unique)):
             print(text, flush=True)
             wrong += 1
     print(f"clang_test: {len(unique)} files, {wrong} with warnings or errors")
