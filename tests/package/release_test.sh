@@ -19,7 +19,7 @@ elif ! "$source/tools/packages/windows/libraries" "$folder/windows-libraries" >"
 else
   parts+=(windows)
 fi
-if "$PYTHON" -c "import pip, wheel, setuptools, pybind11" 2>/dev/null; then parts+=(wheel); else echo "release_test: no wheel, $PYTHON has no pip, wheel, setuptools or pybind11"; fi
+if "$PYTHON" -c "import setuptools, pip, wheel" 2>/dev/null; then parts+=(wheel); else echo "release_test: no wheel, $PYTHON has no pip, wheel or setuptools"; fi
 step "$source/tools/release" --to "$folder" --tree "$build" "${parts[@]}"
 version=$(sed -nE 's/^#define VKH_VERSION_(MAJOR|MINOR|PATCH) //p' "$source/engine/vkhausdorff.h" | paste -sd.)
 cd "$folder/files"
@@ -37,9 +37,9 @@ if [[ " ${parts[*]} " == *" windows "* ]]; then
   step cmake -E chdir "$folder" cmake -E tar xf "files/vkhausdorff-$version-windows-x86_64.zip"
   zip=$folder/vkhausdorff-$version-windows-x86_64
   [ "$(head -c 2 "$zip/vkhausdorff.exe")" = MZ ] || fail "no program in the zip"
-  "$PYTHON" -B "$zip/vkh_check.py" --help >/dev/null || fail "the zip's checker"
+  grep -q "^usage: vkh_check.py CERTIFICATE A B" <("$PYTHON" -B "$zip/vkh_check.py" 2>&1) || fail "the zip's checker"
   for library in meshopt_simplify zip_open XML_Parse deflate; do
-    x86_64-w64-mingw32-nm "$folder/windows/vkhausdorff.exe" | grep -q " T $library" || fail "the zip's program lacks $library"
+    grep -q " T $library" <(x86_64-w64-mingw32-nm "$folder/windows/vkhausdorff.exe") || fail "the zip's program lacks $library"
   done
   has_notices "$zip/THIRD_PARTY.txt"
 fi
