@@ -22,6 +22,7 @@ constexpr std::array kEverySurveyEnd{SurveyEnd::kMet,  SurveyEnd::kBits,      Su
 
 constexpr std::array kEveryInside{Inside::kProven, Inside::kOpen, Inside::kCrossing,
                                   Inside::kWinding, Inside::kUndecided};
+constexpr std::array kInsideOuts{InsideOut::kPart, InsideOut::kAll};
 
 const Json& member_at(const Json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
@@ -327,6 +328,8 @@ SignedFigures signed_of(const Json& json) {
   s.over_witness = sided_point_at(json, "over_witness");
   s.under_witness = sided_point_at(json, "under_witness");
   s.inside = enumerator_at(json, "inside", kEveryInside, inside_name);
+  if (json.contains("inside_out"))
+    s.inside_out = enumerator_at(json, "inside_out", kInsideOuts, inside_out_name);
   const Json& edges = member_at(json, "edges");
   s.edges.open = count_in(edges, "open");
   s.edges.uneven = count_in(edges, "uneven");

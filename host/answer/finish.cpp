@@ -239,6 +239,19 @@ void take_shares_of_a(const Finishing& at, const Side& side, SurveyOptions& opti
   options.area_tolerance = kOfTolerance * MetricsOptions::kShareTolerance;
 }
 
+/// Notes that the other mesh is inside out where sides were found: over is then inside it.
+void note_inside_out(const Finishing& at, const Side& side, const SurveyResult& result) {
+  const InsideOut how = result.sides ? result.sides->inside_out
+                        : result.map ? result.map->inside_out
+                                     : InsideOut::kNone;
+  if (how == InsideOut::kNone) return;
+  const std::string other = side.back ? "A" : "B";
+  const bool is_part = how == InsideOut::kPart;
+  note(at, NoteCode::kInsideOut,
+       (is_part ? "a part of " + other : other) + " is inside out, so that over means inside it: " +
+           "its faces look inward; export it again with faces that look outward");
+}
+
 SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
   SurveyOptions options = survey_options(at, side, left);
   take_shares_of_a(at, side, options);
@@ -250,6 +263,7 @@ SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
     result.ended = SurveyEnd::kTime;
   join(side.report, result, side.from.faces.size());
   add_shares(at, side.report.upper, result);
+  note_inside_out(at, side, result);
   if (beyond && result.statistics) take_coverage(at, *beyond, *result.statistics);
   if (options.statistics && !result.statistics)
     note(at, NoteCode::kSurvey, std::string("there are no statistics of ") + side.name);

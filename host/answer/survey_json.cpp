@@ -86,6 +86,7 @@ std::string signed_json(const SignedFigures& s, const Json& unit, Detail detail)
   json.add_text("over_witness", witness_json(s.over_witness, unit));
   json.add_text("under_witness", witness_json(s.under_witness, unit));
   json.add("inside", inside_name(s.inside));
+  if (s.inside_out != InsideOut::kNone) json.add("inside_out", inside_out_name(s.inside_out));
   json.add("edges", {{"open", s.edges.open}, {"uneven", s.edges.uneven}});
   json.add_text("areas", s.areas ? areas_json(*s.areas) : "null");
   json.add_text("mean", s.mean ? enclosure_json(*s.mean, unit) : "null");

@@ -38,9 +38,12 @@ Enclosure in_percent(const Enclosure& share) {
   return percent;
 }
 
+bool is_of_b(const SurveyResult& survey, const Answer& answer) {
+  return answer.survey_b && &*answer.survey_b == &survey;
+}
+
 bool is_of_points(const SurveyResult& survey, const Answer& answer) {
-  const bool is_of_b = answer.survey_b && &*answer.survey_b == &survey;
-  return answer.inputs[is_of_b ? 1 : 0].are_points;
+  return answer.inputs[is_of_b(survey, answer) ? 1 : 0].are_points;
 }
 
 std::string field_text(const SurveyResult& survey, const Answer& answer) {
@@ -92,6 +95,8 @@ std::string area_of_sides(const SignedFigures::Areas& areas, bool are_points) {
 }
 
 std::string inside_in_words(const SignedFigures& sides) {
+  if (sides.inside_out == InsideOut::kAll && sides.inside == Inside::kProven)
+    return "it has an inside, which decides, and is inside out: over means inside it";
   switch (sides.inside) {
     case Inside::kProven:
       return "it has an inside, which decides";
@@ -108,8 +113,15 @@ std::string inside_in_words(const SignedFigures& sides) {
   return "";
 }
 
-void add_sides(const SignedFigures& sides, const std::string& unit, bool are_points,
+/// A mesh whose survey becomes rows.
+struct Surveyed {
+  const char* other;  ///< the mesh on whose sides it lies
+  bool are_points;
+};
+
+void add_sides(const SignedFigures& sides, const std::string& unit, const Surveyed& of,
                std::vector<TableRow>& rows) {
+  const bool are_points = of.are_points;
   rows.push_back({"sides", "farthest over " + enclosure(sides.over, unit) + ", under " +
                                enclosure(sides.under, unit)});
   if (sides.areas)
@@ -119,7 +131,7 @@ void add_sides(const SignedFigures& sides, const std::string& unit, bool are_poi
     rows.push_back({"signed", "mean " + figure(*sides.mean, unit)});
     rows.push_back({"signed", percentiles_text(sides.percentiles, unit, are_points)});
   }
-  rows.push_back({"side of B", inside_in_words(sides)});
+  rows.push_back({std::string("side of ") + of.other, inside_in_words(sides)});
 }
 
 const char* reason_of(SurveyEnd end) {
@@ -193,7 +205,8 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
   const bool are_points = is_of_points(survey, answer);
   if (survey.faces) rows.push_back({are_points ? "points" : "faces", field_text(survey, answer)});
   if (survey.statistics) add_statistics(*survey.statistics, unit, rows);
-  if (survey.sides) add_sides(*survey.sides, unit, are_points, rows);
+  if (survey.sides)
+    add_sides(*survey.sides, unit, {is_of_b(survey, answer) ? "A" : "B", are_points}, rows);
   std::string work = std::to_string(survey.bounded) + " cells bounded in " +
                      decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";
   if (!survey.is_met()) work += end_text(survey);

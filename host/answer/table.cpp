@@ -260,7 +260,7 @@ void print_part(std::ostream& out, const Answer& answer) {
 /// Whether the note stands with the sizes, or in the first line.
 bool is_said_first(NoteCode code) {
   return is_odd_pair(code) || code == NoteCode::kOneWay || code == NoteCode::kCoverage ||
-         code == NoteCode::kConverted;
+         code == NoteCode::kConverted || code == NoteCode::kInsideOut;
 }
 
 /// Prints the boxes' sizes, and what is odd about them.

@@ -264,11 +264,17 @@ const char* one_way_text(const Answer& answer) {
                            : "A to B only; --symmetric also finds what A lacks of B";
 }
 
+/// Whether the first line warns of it. Sides that are the wrong way round matter to limits of
+/// sides.
+bool is_in_first_line(const Answer& answer, NoteCode code) {
+  return is_odd_pair(code) || (code == NoteCode::kInsideOut && answer.max && answer.max->sides);
+}
+
 /// Says in a few words why the pair is odd; empty: it is not.
 std::string oddities(const Answer& answer) {
   std::string text;
   for (const Note& note : answer.notes) {
-    if (is_odd_pair(note.code)) text += (text.empty() ? "" : "; ") + clause_of(note);
+    if (is_in_first_line(answer, note.code)) text += (text.empty() ? "" : "; ") + clause_of(note);
   }
   return text;
 }

@@ -8,14 +8,14 @@
 namespace vkh {
 namespace {
 
-constexpr std::array<std::string_view, 31> kCodeNames = {
+constexpr std::array<std::string_view, 32> kCodeNames = {
     "polygons",   "ambiguity",    "bodies",    "short-faces", "elements",    "surfaces",
     "calls",      "unread",       "scene",     "rotations",   "positions",   "morph",
     "animations", "units",        "size",      "turn",        "apart",       "one-way",
     "coverage",   "unit-assumed", "converted", "stretch",     "fit",         "poor-fit",
     "other-fit",  "tolerance",    "memory",    "devices",     "certificate", "survey",
-    "points"};
-static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kPoints) + 1);
+    "points",     "inside-out"};
+static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kInsideOut) + 1);
 
 }  // namespace
 
@@ -60,6 +60,7 @@ bool is_for_servers(NoteCode code) {
     case NoteCode::kPoorFit:
     case NoteCode::kOtherFit:
     case NoteCode::kUnitAssumed:
+    case NoteCode::kInsideOut:
       return true;
     default:
       return false;

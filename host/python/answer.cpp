@@ -108,7 +108,8 @@ py::object signed_of(const Question& question, const SignedFigures& s) {
   for (const Percentile& p : s.percentiles)
     percentiles.append(py::make_tuple(p.share, p.distance.lower, p.distance.upper));
   return py::dict("over"_a = interval_of(s.over), "under"_a = interval_of(s.under),
-                  "inside"_a = inside_name(s.inside), "open_edges"_a = s.edges.open,
+                  "inside"_a = inside_name(s.inside),
+                  "inside_out"_a = inside_out_name(s.inside_out), "open_edges"_a = s.edges.open,
                   "areas"_a = areas, "mean"_a = mean, "percentiles"_a = percentiles,
                   "over_field"_a = over, "under_field"_a = under,
                   "over_witness"_a = witness_of(s.over_witness),

@@ -213,6 +213,12 @@ void add_survey_ends(const Answer& answer, std::vector<std::string>& warnings) {
   add("B", b);
 }
 
+// The page says outward and inward where others say over and under.
+std::string inside_out_warning(const Note& note) {
+  const std::string which = note.text.substr(0, note.text.find(','));
+  return "Check the two files: " + which + ", so that outward means into it, and inward out of it.";
+}
+
 }  // namespace
 
 std::string figure_text(const Enclosure& length, const Limit& limit) {
@@ -313,6 +319,7 @@ std::vector<std::string> warnings_of(const Answer& answer) {
   std::vector<std::string> warnings;
   for (const Note& note : answer.notes) {
     if (is_odd_pair(note.code)) warnings.push_back("Check the two files: " + clause_of(note) + ".");
+    if (note.code == NoteCode::kInsideOut) warnings.push_back(inside_out_warning(note));
   }
   add_search_end(answer, answer.a_to_b, false, warnings);
   if (answer.b_to_a) add_search_end(answer, *answer.b_to_a, true, warnings);

@@ -167,7 +167,9 @@ void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const Goe
   const double above = std::min(CellMap::kUnresolved * map.bar / map.unit,
                                 kOfLargest * static_cast<double>(cells.reached()));
   KnownSides known;
-  if (sides.find(cells, above, known)) add_sides(known.of(cells), map);
+  if (!sides.find(cells, above, known)) return;
+  add_sides(known.of(cells), map);
+  map.inside_out = sides.shells().inside_out();
 }
 
 // A width is rounded to a float, by a share of 2^-24 at most. The sums, the products and `unit`

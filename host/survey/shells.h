@@ -32,6 +32,7 @@ class Shells {
 
   const EdgeCounts& edges() const { return edges_; }
   Inside inside() const { return inside_; }
+  InsideOut inside_out() const { return inside_out_; }
 
   const Corners3& corners(uint32_t face) const { return triangles_[face]; }
   /// Whether the face is a segment or a point that no other face covers.
@@ -65,6 +66,7 @@ class Shells {
   std::optional<bool> find_contacts(const GoesOn& goes_on);
   std::vector<uint32_t> patches(const std::vector<EdgeUse>& uses) const;
   Inside wind(const std::vector<EdgeUse>& uses, const GoesOn& goes_on);
+  bool has_negative_volume() const;
   std::optional<int> front_winding(uint32_t face) const;
   std::optional<int> winding_beside(uint32_t face, int attempt) const;
   std::optional<int> winding_along(int axis, const glm::dvec3& p) const;
@@ -81,6 +83,7 @@ class Shells {
   EdgeCounts edges_;
   TriangleTree tree_;
   Inside inside_ = Inside::kUndecided;
+  InsideOut inside_out_ = InsideOut::kNone;
   int front_ = 0;  // the winding number in front of every face, where inside_ is kProven
 };
 

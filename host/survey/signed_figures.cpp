@@ -296,6 +296,7 @@ SignedFigures SidedCells::figures(const SurveyedArea& surface, const SurveyOptio
   SignedFigures figures;
   figures.inside = sides_.is_shared() ? Inside::kProven : sides_.shells().inside();
   if (!sides_.is_shared() && figures.inside == Inside::kProven) figures.inside = Inside::kUndecided;
+  figures.inside_out = sides_.shells().inside_out();
   figures.edges = sides_.shells().edges();
   BothSides all;
   for (size_t i = 0; i < cells.count(); ++i) all.add(cells, i, sides[i].side);

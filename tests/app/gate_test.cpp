@@ -67,6 +67,61 @@ TEST_CASE("limits over B and under it") {
   CHECK(gate("+0.1abs,+0.3abs").exit_code == 2);
 }
 
+/// A cube about (at, 0, 0), whose faces look outward or inward.
+std::string cube_text(double at, double half, bool is_inward, int before = 0) {
+  std::ostringstream obj;
+  for (int i = 0; i < 8; ++i)
+    obj << "v " << at + (i & 1 ? half : -half) << ' ' << (i & 2 ? half : -half) << ' '
+        << (i & 4 ? half : -half) << '\n';
+  const int faces[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
+                           {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
+  for (const auto& f : faces) {
+    for (const int k : {2, 3}) {
+      const int second = f[is_inward ? k : k - 1], third = f[is_inward ? k - 1 : k];
+      obj << "f " << before + f[0] << ' ' << before + second << ' ' << before + third << '\n';
+    }
+  }
+  return obj.str();
+}
+
+// A is a tenth under the faces of B.
+TEST_CASE("a B that is inside out is said first where sides have limits, since over is inside it") {
+  const std::string a = write_file("inner.obj", cube_text(0, 0.9, false)),
+                    b = write_file("right.obj", cube_text(0, 1, false)),
+                    flipped = write_file("flipped.obj", cube_text(0, 1, true)),
+                    part = write_file("part.obj",
+                                      cube_text(0, 1, false) + cube_text(2.5, 0.2, true, 8));
+  const Words limits = {"--max=+0.25abs,-0.05abs"};
+  const Outcome right = run(Words{"gate", a, b} + limits);
+  CHECK(right.exit_code == 1);
+  CHECK(right.out.find("inside out") == std::string::npos);
+  const std::string junit = folder() / "flipped.xml";
+  const Outcome wrong = run(Words{"gate", a, flipped, "--junit=" + junit} + limits);
+  CHECK(wrong.exit_code == 0);
+  const std::string first =
+      "PASS  if the inputs are right (B is inside out, so that over means "
+      "inside it): every point of A is within 0.25 over B and 0.05 under it";
+  CHECK(starts_with(wrong.out, first));
+  CHECK(wrong.out.find("\n  side of B  it has an inside, which decides, and is inside out: over "
+                       "means inside it\n") != std::string::npos);
+  const std::string xml = read_file(junit);
+  CHECK(xml.find(first) != std::string::npos);
+  CHECK(xml.find("\ninside-out: B is inside out") != std::string::npos);
+  const json answer = json::parse(run(Words{"gate", a, flipped, "--json"} + limits).out);
+  CHECK(answer["directions"][0]["signed"]["inside_out"] == "all");
+  CHECK(answer["notes"][0]["code"] == "inside-out");
+  CHECK(run(Words{"gate", a, part} + limits)
+            .out.find("a part of B is inside out, so that over means inside it") !=
+        std::string::npos);
+  // Without limits of sides no verdict hangs on it: a note is enough.
+  const Outcome distance = run({"distance", a, flipped, "--signed", "--symmetric"});
+  CHECK(distance.out.substr(0, distance.out.find('\n')).find("inside out") == std::string::npos);
+  CHECK(distance.out.find("\n  note       inside-out: B is inside out") != std::string::npos);
+  CHECK(distance.out.find("A is inside out") == std::string::npos);
+  CHECK(run({"distance", flipped, b, "--signed", "--symmetric"})
+            .out.find("\n  note       inside-out: A is inside out") != std::string::npos);
+}
+
 TEST_CASE("faces of B that are against each other have no sides") {
   const std::string b =
       write_file("against.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\n");

@@ -80,6 +80,20 @@ TEST_CASE("a page carries its answer, its verdict and its names") {
   }
 }
 
+TEST_CASE("a page says which way outward is where B is inside out") {
+  Invented pair = small_pair();
+  const auto warns = [&] {
+    const std::string page = vkh::to_page(pair.contents());
+    return count_of(page,
+                    "Check the two files: B is inside out, so that outward means into it, and "
+                    "inward out of it.");
+  };
+  CHECK(warns() == 0);
+  pair.answer.notes = {
+      vkh::note_of(vkh::NoteCode::kInsideOut, "B is inside out, so that over means inside it: x")};
+  CHECK(warns() == 1);
+}
+
 TEST_CASE("a page has the title that was asked for") {
   const Invented pair = small_pair();
   vkh::PageContents contents = pair.contents();

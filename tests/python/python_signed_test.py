@@ -97,6 +97,17 @@ class Signed(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "symmetric: limits of two sides"):
             vkh.gate(RAMP, FLOOR, "+0.16abs,-0.11abs", symmetric=True)
 
+    def test_a_mesh_that_is_inside_out(self):
+        corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+        outward = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+        inner = (0.2 + 0.2 * corners, outward)
+        for faces, how in ((outward, "none"), (outward[:, ::-1], "all")):
+            with self.subTest(how):
+                r = vkh.distance(inner, (corners, faces), signed=True)
+                self.assertEqual((r.signed.inside, r.signed.inside_out), ("proven", how))
+                self.assertEqual(r.to_dict()["survey"]["signed"]["inside_out"], how)
+                self.assertEqual("inside-out" in [note["code"] for note in r.notes], how == "all")
+
     def test_faces_against_each_other_are_refused(self):
         bad = (FLOOR[0], np.array([[0, 1, 2], [0, 3, 2]]))
         with self.assertRaisesRegex(ValueError, "oriented against each other"):

@@ -411,6 +411,59 @@ TEST_CASE("no side is shared where scaling rounds a coordinate of A") {
   CHECK_FALSE(is_shared(least));
 }
 
+Shells shells_of(const Mesh& mesh) {
+  return Shells({mesh.vertices.begin(), mesh.vertices.end()}, mesh.faces);
+}
+
+TEST_CASE("how much of a mesh is inside out, by winding numbers") {
+  const auto of = [](const Mesh& mesh) { return shells_of(mesh).inside_out(); };
+  const Mesh solid = cube(1), inner = cube(0.5), beside = cube_at({5, 0, 0});
+  const Mesh hollow = joined(solid, reversed(inner));
+  for (const Mesh& right : {solid, joined(solid, beside), hollow, joined(solid, inner)})
+    CHECK(of(right) == InsideOut::kNone);
+  for (const Mesh& wrong : {reversed(solid), reversed(joined(solid, beside)), reversed(hollow)})
+    CHECK(of(wrong) == InsideOut::kAll);
+  CHECK(of(moved(solid, [](const dvec3& p) { return dvec3(-p.x, p.y, p.z); })) == InsideOut::kAll);
+  for (const Mesh& one : {joined(solid, reversed(beside)), joined(reversed(solid), beside)})
+    CHECK(of(one) == InsideOut::kPart);
+  Random random(3);
+  CHECK(of(reversed(without_a_face(solid, random))) == InsideOut::kNone);  // an open one has none
+}
+
+// Six times what the tetrahedra from the origin to the faces add up to. Corners are small integers.
+int64_t six_volumes(const Mesh& mesh) {
+  int64_t sum = 0;
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto t = corners(mesh, f);
+    const auto at = [&](size_t i, int axis) { return static_cast<int64_t>(t[i][axis]); };
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      sum += at(0, i) * (at(1, j) * at(2, k) - at(1, k) * at(2, j));
+    }
+  }
+  return sum;
+}
+
+TEST_CASE("a mesh whose faces cross is inside out if its volume is negative") {
+  Random random(11);
+  int crossing = 0, inward = 0;
+  for (int i = 0; i < 400; ++i) {
+    Mesh first = lattice_tetrahedron(random), second = lattice_box(random);
+    if (random.below(2) == 0) first = reversed(std::move(first));
+    if (random.below(2) == 0) second = reversed(std::move(second));
+    const Mesh mesh = joined(first, second);
+    const Shells shells = shells_of(mesh);
+    if (shells.inside() != Inside::kCrossing) continue;
+    ++crossing;
+    const bool is_negative = six_volumes(mesh) < 0;
+    inward += is_negative ? 1 : 0;
+    CHECK((shells.inside_out() == InsideOut::kAll) == is_negative);
+  }
+  CHECK(crossing > 40);
+  CHECK(inward > 10);
+  CHECK(inward < crossing - 10);
+}
+
 // Three faces at an edge, or four, are no conflict.
 TEST_CASE("edges of three faces leave no inside, of four they may") {
   const Mesh fin = joined(cube(1), single_triangle({1, 1, 1}, {1, 1, -1}, {3, 3, 0}));

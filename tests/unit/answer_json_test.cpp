@@ -140,6 +140,7 @@ SignedFigures sides() {
   far.at.point = {1, -2, 0.125};
   s.over_witness = far;
   s.inside = Inside::kOpen;
+  s.inside_out = InsideOut::kPart;
   s.edges = {.open = 3, .uneven = 1};
   s.areas.emplace();
   s.areas->over = {0.4, 0.5};
@@ -355,7 +356,7 @@ TEST_CASE("a member that is missing is refused, unless it may be or says nothing
       "file",      "face",        "notes",  // or is of a note
       "part",      "parts",       "boxes", "more_devices", "barycentric", "certificate",
       "coverage",  "faces_a",     "field", "verified",     "exact",       "u1",
-      "transform", "estimate",    "jump"};
+      "transform", "estimate",    "jump",  "inside_out"};
   for (const Answer& answer : all_kinds()) {
     const Json whole = Json::parse(to_json(answer));
     for_each_value(whole, "", [&](const std::string& at, const Json&) {

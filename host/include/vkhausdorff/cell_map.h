@@ -48,6 +48,7 @@ struct CellMap {
   double least = 0;  ///< widths up to that, in `unit`, are what floats leave
   double slack = 0;  ///< how far storing coordinates moves a distance, in the files' units
   bool has_sides = false;
+  InsideOut inside_out = InsideOut::kNone;  ///< of B, with sides
   /// SurveyOptions::max_distance, in the files' units: cells that are probably farther are left
   /// out.
   std::optional<double> max_distance = {};

@@ -96,8 +96,9 @@ struct SignedFigures {
   /// Far points of both sides: `over.lower` is at least over_witness->lower. None: no cell has that
   /// side.
   std::optional<SidedPoint> over_witness, under_witness;
-  Inside inside = Inside::kUndecided;  ///< whether B has an inside, so that cells share sides
-  EdgeCounts edges;                    ///< of B
+  Inside inside = Inside::kUndecided;       ///< whether B has an inside, so that cells share sides
+  InsideOut inside_out = InsideOut::kNone;  ///< whether B's faces look inward
+  EdgeCounts edges;                         ///< of B
   struct Areas {
     Enclosure over, under;                  ///< shares of A's area
     std::array<Enclosure, kDoubts> doubts;  ///< those without a side, by Doubt

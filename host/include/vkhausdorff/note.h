@@ -45,6 +45,7 @@ enum class NoteCode {
   kCertificate,  ///< a certificate is missing, or proves less than the interval
   kSurvey,       ///< statistics, a field or a picture are missing
   kPoints,       ///< the distance is to points: it is no less than the gaps between them
+  kInsideOut,    ///< faces of B look inward, so that over means inside it
 };
 
 /// The code's name, such as "short-faces".

@@ -21,6 +21,14 @@ enum class Inside {
 };
 const char* inside_name(Inside inside);  ///< "proven", "open", "crossing", "winding", "undecided"
 
+/// How much of a closed B is inside out: its faces look inward, so that over means inside it.
+enum class InsideOut : uint8_t {
+  kNone,  ///< nothing, or B is open, or that was not decided
+  kPart,  ///< some faces, as of one of several bodies
+  kAll,   ///< all faces; where they cross, the volume that they enclose is negative
+};
+const char* inside_out_name(InsideOut how);  ///< "none", "part", "all"
+
 /// An edge, and two faces that both use it in one direction, as no orientation would have them.
 struct EdgeConflict {
   std::array<uint32_t, 2> vertices{}, faces{};

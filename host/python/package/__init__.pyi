@@ -153,6 +153,7 @@ class Signed:
     under_field: Field | Any
     over_witness: SidedPoint | Any
     under_witness: SidedPoint | Any
+    inside_out: Literal["none", "part", "all"]
     def to_dict(self) -> dict[str, Any]: ...
 
 class Simplified:

@@ -131,7 +131,8 @@ class Signed:
     """The sides of the other mesh on which a mesh lies: over it, in front of its faces as they are oriented, or under it.
 
     over, under: Intervals of the largest distance of a point on that side; upper covers what has no side. inside: whether
-    the other mesh has a proven inside, or why not: 'open', 'crossing', 'winding' or 'undecided'; open_edges: of it. areas:
+    the other mesh has a proven inside, or why not: 'open', 'crossing', 'winding' or 'undecided'; open_edges: of it.
+    inside_out: whether its faces look inward, so that over means inside it: 'none', 'part' or 'all' of them. areas:
     Intervals of shares of the area, {'over', 'under', 'unsigned': {reason: Interval}}, or None. mean, percentiles: of the
     signed distance, which is negative under the other mesh; with statistics. over_field, under_field: with field, a Field of
     each side. over_witness, under_witness: a SidedPoint far on each side, or None.
@@ -148,13 +149,14 @@ class Signed:
     under_field: Any
     over_witness: Any = None
     under_witness: Any = None
+    inside_out: str = "none"
 
     __hash__ = None
 
     def to_dict(self):
         """All of it as plain values, which json.dumps takes."""
         plain = {"over": list(self.over), "under": list(self.under), "inside": self.inside, "open_edges": self.open_edges,
-                 "areas": None, "mean": list(self.mean) if self.mean is not None else None,
+                 "inside_out": self.inside_out, "areas": None, "mean": list(self.mean) if self.mean is not None else None,
                  "percentiles": [{"share": share, "distance": list(d)} for share, d in self.percentiles.items()]}
         if self.areas is not None:
             plain["areas"] = {"over": list(self.areas["over"]), "under": list(self.areas["under"]),
@@ -276,7 +278,7 @@ def _signed(found, source):
     return Signed(Interval(*found["over"]), Interval(*found["under"]), found["inside"], found["open_edges"], areas,
                   Interval(*found["mean"]) if found["mean"] is not None else None,
                   {share: Interval(lower, upper) for share, lower, upper in found["percentiles"]},
-                  field("over"), field("under"), *witnesses)
+                  field("over"), field("under"), *witnesses, found["inside_out"])
 
 
 def _signed_field(signed):

@@ -1,0 +1,80 @@
+// The words of answers that are made here: what a first line says of a limit, and what it advises.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "host/answer/csv.h"
+#include "host/answer/json_object.h"
+#include "host/answer/record.h"
+#include "host/answer/steps.h"
+#include "host/answer/tables.h"
+#include "vkhausdorff/note.h"
+
+namespace {
+
+using namespace vkh;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+Question gate_question() {
+  Question question;
+  question.command = "gate";
+  question.file_a = "a.stl";
+  question.file_b = "b.stl";
+  question.max = parse_length("--max", "0.1mm", PlainNumber::kRefused);
+  return question;
+}
+
+/// An answer about 0.1 mm: its largest distance is in [lower, upper].
+Answer gate(double lower, double upper) {
+  Answer answer = unread_answer(gate_question());
+  for (Input& input : answer.inputs) input.is_read = true;
+  answer.unit = "mm";
+  answer.max->limit = {0.1, 0.1};
+  answer.a_to_b.diagonal_a = 10;
+  answer.a_to_b.lower = lower;
+  answer.a_to_b.upper = upper;
+  answer.a_to_b.status = Status::kLimit;
+  return answer;
+}
+
+SurveyResult survey(const Enclosure& share, SurveyEnd ended = SurveyEnd::kMet) {
+  SurveyResult result;
+  result.statistics.emplace();
+  result.statistics->bands = {{.distance = 0.1, .share = share}};
+  result.ended = ended;
+  return result;
+}
+
+SignedFigures sides(const Enclosure& over, const Enclosure& under) {
+  SignedFigures figures;
+  figures.over = over;
+  figures.under = under;
+  return figures;
+}
+
+TEST_CASE("limits of sides are conditional on a B that is not inside out") {
+  Answer answer = gate(0.05, 0.15);
+  answer.max->sides = AskedSides{parse_length("--max", "0.2mm", PlainNumber::kRefused),
+                                 parse_length("--max", "0.1mm", PlainNumber::kRefused),
+                                 {{0.2, 0.2}, {0.1, 0.1}}};
+  answer.survey_a = survey({0, 1});
+  answer.survey_a->sides = sides({0.05, 0.15}, {0.01, 0.02});
+  CHECK(in_words(answer).starts_with("PASS  every point"));
+  answer.notes = {
+      note_of(NoteCode::kInsideOut, "B is inside out, so that over means inside it: x")};
+  CHECK(in_words(answer).starts_with(
+      "PASS  if the inputs are right (B is inside out, so that over means inside it): every"));
+  answer.a_to_b.upper = 0.4;
+  answer.survey_a->sides->over = {0.3, 0.35};
+  CHECK(has(in_words(answer), ". Check the inputs: B is inside out"));
+  answer.max->sides.reset();  // one limit for both sides
+  CHECK_FALSE(has(in_words(answer), "inside out"));
+}
+
+}  // namespace
