@@ -56,6 +56,11 @@ double number_or_infinity_at(const Json& object, const char* key) {
   return number_at(object, key);
 }
 
+// A length that waits for the meshes to be read is null.
+double number_or_zero_at(const Json& object, const char* key) {
+  return member_at(object, key).is_null() ? 0 : number_at(object, key);
+}
+
 bool truth_at(const Json& object, const char* key) {
   const Json& value = member_at(object, key);
   if (!value.is_boolean()) refuse_member(key, "truth value");
@@ -418,13 +423,13 @@ AskedSides asked_sides_of(const Json& json) {
   const Json &over = member_at(json, "over"), &under = member_at(json, "under");
   return {length_of(over),
           length_of(under),
-          {{number_at(over, "within"), number_at(over, "beyond")},
-           {number_at(under, "within"), number_at(under, "beyond")}}};
+          {{number_or_zero_at(over, "within"), number_or_zero_at(over, "beyond")},
+           {number_or_zero_at(under, "within"), number_or_zero_at(under, "beyond")}}};
 }
 
 Asked asked_of(const Json& json) {
   Asked max{.length = length_of(json),
-            .limit = {number_at(json, "within"), number_at(json, "beyond")},
+            .limit = {number_or_zero_at(json, "within"), number_or_zero_at(json, "beyond")},
             .faces_a = face_limits_at(json, "faces_a"),
             .faces_b = face_limits_at(json, "faces_b")};
   if (json.contains("area")) max.area = number_at(json, "area");
@@ -519,8 +524,8 @@ void read_directions(const Json& json, Answer& answer) {
     r = report_at(direction);
     (back ? answer.survey_b : answer.survey_a) = survey_at(direction, answer.max.has_value());
     (back ? answer.proof_b : answer.proof_a) = proof_at(direction);
-    r.tolerance = number_at(member_at(json, "tolerance"), "absolute");
-    r.diagonal_a = number_at(json.at("tolerance"), "diagonal");
+    r.tolerance = number_or_zero_at(member_at(json, "tolerance"), "absolute");
+    r.diagonal_a = number_or_zero_at(json.at("tolerance"), "diagonal");
     if (back) r.diagonal_a = diagonal_of_back(direction, answer);
   }
 }

@@ -138,11 +138,17 @@ Json faces_json(const FaceLimits& faces) {
           {"runs", faces.runs},   {"verdict", verdict_name(faces.verdict)}};
 }
 
-Json sides_json(const AskedSides& sides) {
-  const auto one = [](const Length& length, const Limit& limit) {
+/// A length in the answer's unit: null until the meshes are read, which it waits for.
+Json length_json(const Answer& answer, double length) {
+  return are_read(answer) ? Json(length) : Json();
+}
+
+Json sides_json(const Answer& answer) {
+  const AskedSides& sides = *answer.max->sides;
+  const auto one = [&](const Length& length, const Limit& limit) {
     return Json{{"requested", length.requested},
-                {"within", limit.within},
-                {"beyond", limit.beyond},
+                {"within", length_json(answer, limit.within)},
+                {"beyond", length_json(answer, limit.beyond)},
                 {"diagonal_of", diagonal_of(length)}};
   };
   return {{"over", one(sides.over, sides.limits.over)},
@@ -152,12 +158,12 @@ Json sides_json(const AskedSides& sides) {
 std::string max_json(const Answer& answer) {
   JsonObject json;
   json.add("requested", answer.max->length.requested);
-  json.add("within", answer.max->limit.within);
-  json.add("beyond", answer.max->limit.beyond);
+  json.add("within", length_json(answer, answer.max->limit.within));
+  json.add("beyond", length_json(answer, answer.max->limit.beyond));
   json.add("unit", text_or_null(answer.unit));
   json.add("diagonal_of", diagonal_of(answer.max->length));
   if (answer.max->area) json.add("area", *answer.max->area);
-  if (answer.max->sides) json.add("sides", sides_json(*answer.max->sides));
+  if (answer.max->sides) json.add("sides", sides_json(answer));
   if (answer.max->faces_a) json.add("faces_a", faces_json(*answer.max->faces_a));
   if (answer.max->faces_b) json.add("faces_b", faces_json(*answer.max->faces_b));
   return json.text();
@@ -165,10 +171,10 @@ std::string max_json(const Answer& answer) {
 
 Json tolerance_json(const Answer& answer) {
   return {{"requested", answer.tolerance.requested},
-          {"absolute", answer.a_to_b.tolerance},
+          {"absolute", length_json(answer, answer.a_to_b.tolerance)},
           {"unit", text_or_null(answer.unit)},
           {"diagonal_of", diagonal_of(answer.tolerance)},
-          {"diagonal", answer.a_to_b.diagonal_a}};
+          {"diagonal", length_json(answer, answer.a_to_b.diagonal_a)}};
 }
 
 Json options_json(const Answer& answer) {

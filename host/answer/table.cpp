@@ -125,13 +125,18 @@ std::string unit_text(const Answer& answer) {
   return answer.unit.empty() ? "in the files' unit" : answer.unit;
 }
 
-// Writes the length of the request, and its value in the files' unit.
+// Writes the length of the request, and its value in the files' unit, which waits for the files.
 std::string length_text(const Answer& answer, const Length& asked, double resolved) {
+  const bool is_share = asked.of == Length::Of::kDiagonal;
+  if (!are_read(answer))
+    return asked.requested + (!is_share                           ? ""
+                              : asked.requested.ends_with("diag") ? "(A)"
+                                                                  : " of diag(A)");
   if (asked.of == Length::Of::kFiles ||
       (asked.of == Length::Of::kUnit && asked.unit == answer.unit))
     return printed("%.6g ", resolved) + unit_text(answer);
   std::string text = asked.requested;
-  if (asked.of == Length::Of::kDiagonal) {
+  if (is_share) {
     text += text.ends_with("diag") ? "(A)" : " of diag(A)";
     text += printed(" = %.9g", answer.a_to_b.diagonal_a);
   }

@@ -236,7 +236,7 @@ TEST_CASE("a record of an answer is that of its line") {
                       .counts = {.faces = 7},
                       .sha256 = "aa",
                       .notes = {note_of(NoteCode::kUnread, "so")}};
-  answer.inputs[1].path = "b.obj";
+  answer.inputs[1] = {.path = "b.obj", .is_read = true, .counts = {.faces = 9}};
   answer.a_to_b.lower = 0.1;
   answer.a_to_b.upper = 0.3;
   answer.a_to_b.diagonal_a = 1.0 / 3;

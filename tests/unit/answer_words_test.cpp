@@ -58,6 +58,27 @@ SignedFigures sides(const Enclosure& over, const Enclosure& under) {
   return figures;
 }
 
+std::string table_of(const Answer& answer) {
+  std::ostringstream out;
+  print_table(out, answer, false);
+  return out.str();
+}
+
+TEST_CASE("lengths in a unit wait for the meshes") {
+  Question question = gate_question();
+  question.max_sides = SidedMax{*question.max, *question.max};
+  const Answer unread = unread_answer(question);
+  const Json json = Json::parse(to_json(unread));
+  for (const char* at : {"/max/within", "/max/beyond", "/max/sides/over/within",
+                         "/max/sides/under/beyond", "/tolerance/absolute", "/tolerance/diagonal"})
+    CHECK(json.at(Json::json_pointer(at)).is_null());
+  CHECK(to_json(answer_from_json(to_json(unread))) == to_json(unread));
+  const std::string table = table_of(unread);
+  CHECK(has(table, "  max        0.1mm\n"));
+  CHECK(has(table, "  tolerance  1e-6 of diag(A)\n"));
+  CHECK(Json::parse(to_json(gate(0.2, 0.3)))["max"]["within"] == 0.1);
+}
+
 TEST_CASE("limits of sides are conditional on a B that is not inside out") {
   Answer answer = gate(0.05, 0.15);
   answer.max->sides = AskedSides{parse_length("--max", "0.2mm", PlainNumber::kRefused),

@@ -105,6 +105,11 @@ struct Answer {
   std::string first_line = {};
 };
 
+/// Whether both meshes were read, so that lengths are known in their unit.
+inline bool are_read(const Answer& answer) {
+  return answer.inputs[0].is_read && answer.inputs[1].is_read;
+}
+
 /// The whole answer's interval.
 CertifiedInterval interval_of(const Answer& answer);
 /// The verdict on one direction, and on all, of an answer with `max`.
