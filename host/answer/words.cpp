@@ -153,6 +153,24 @@ std::string percent(double share, double asked, Rounding rounding) {
          " %";
 }
 
+/// What decides the verdict that a survey left open: more of what ended it.
+std::string survey_hint(const Answer& answer, bool back) {
+  const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
+  if (!survey) return hint(answer, (back ? *answer.b_to_a : answer.a_to_b).status);
+  switch (survey->ended) {
+    case SurveyEnd::kEffort:
+      return "; ask for more --effort";
+    case SurveyEnd::kTime:
+      return "; ask for more --time";
+    case SurveyEnd::kCancelled:
+      return "; it was interrupted";
+    case SurveyEnd::kMemory:
+      return "; there was no memory for more";
+    default:
+      return "; no more --effort decides it";
+  }
+}
+
 // Describes the mesh that decides: the one that is not within, else the one with less.
 std::string area_in_words(const Answer& answer) {
   const double area = *answer.max->area;
@@ -171,7 +189,7 @@ std::string area_in_words(const Answer& answer) {
   if (verdict == Verdict::kBeyond)
     return "FAIL  at most " + percent(share.upper, area, Rounding::kUp) + of + ", proven" + asked;
   return "UNDECIDED  from " + percent(share.lower, area, Rounding::kDown) + " to " +
-         percent(share.upper, area, Rounding::kUp) + of + asked + "; ask for more --time";
+         percent(share.upper, area, Rounding::kUp) + of + asked + survey_hint(answer, back);
 }
 
 /// The largest deviation of a PASS, as far as it is known: the run ends once the limit is decided.
@@ -221,11 +239,11 @@ std::string sides_in_words(const Answer& answer) {
   }
   if (found == nullptr)
     return "UNDECIDED  sides are not known: the limits are " + limits_in_words(answer) +
-           hint(answer, answer.a_to_b.status);
+           survey_hint(answer, false);
   return "UNDECIDED  the limits are " + limits_in_words(answer) +
          "; the farthest point over B is " + side_interval(answer, found->over) +
          " away, under it " + side_interval(answer, found->under) +
-         ", where points without a side count as either";
+         ", where points without a side count as either" + survey_hint(answer, false);
 }
 
 std::string gate_in_words(const Answer& answer) {

@@ -58,10 +58,49 @@ SignedFigures sides(const Enclosure& over, const Enclosure& under) {
   return figures;
 }
 
+/// Whether so much of A's area, and of B's where it is given, is within the limit: 99 % are asked.
+Answer by_area(const Enclosure& of_a, std::optional<Enclosure> of_b = {},
+               SurveyEnd ended = SurveyEnd::kMet) {
+  Answer answer = gate(0.2, 0.3);
+  answer.max->area = 0.99;
+  answer.max->area_requested = "99%";
+  answer.survey_a = survey(of_a, ended);
+  if (!of_b) return answer;
+  answer.b_to_a = answer.a_to_b;
+  answer.survey_b = survey(*of_b, ended);
+  return answer;
+}
+
 std::string table_of(const Answer& answer) {
   std::ostringstream out;
   print_table(out, answer, false);
   return out.str();
+}
+
+TEST_CASE("what is undecided asks for more of what ended it") {
+  const auto check = [](SurveyEnd ended, const std::string& advice) {
+    const Answer area = by_area({0.98, 0.995}, {}, ended);
+    CHECK(in_words(area) ==
+          "UNDECIDED  from 97.99 % to 99.501 % of A's area is within 0.1 mm of B (99% "
+          "asked); " +
+              advice);
+    Answer sided = gate(0.05, 0.3);
+    sided.max->sides = AskedSides{parse_length("--max", "0.2mm", PlainNumber::kRefused),
+                                  parse_length("--max", "0.1mm", PlainNumber::kRefused),
+                                  {{0.2, 0.2}, {0.1, 0.1}}};
+    sided.survey_a = survey({0, 1}, ended);
+    CHECK(
+        in_words(sided).ends_with("sides are not known: the limits are 0.2 mm over B and 0.1 mm "
+                                  "under it; " +
+                                  advice));
+    sided.survey_a->sides = sides({0.05, 0.3}, {0.01, 0.3});
+    CHECK(in_words(sided).ends_with("points without a side count as either; " + advice));
+  };
+  check(SurveyEnd::kEffort, "ask for more --effort");
+  check(SurveyEnd::kTime, "ask for more --time");
+  check(SurveyEnd::kCancelled, "it was interrupted");
+  check(SurveyEnd::kMemory, "there was no memory for more");
+  check(SurveyEnd::kBits, "no more --effort decides it");
 }
 
 TEST_CASE("lengths in a unit wait for the meshes") {
