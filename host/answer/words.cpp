@@ -171,25 +171,33 @@ std::string survey_hint(const Answer& answer, bool back) {
   }
 }
 
-// Describes the mesh that decides: the one that is not within, else the one with less.
-std::string area_in_words(const Answer& answer) {
-  const double area = *answer.max->area;
-  const bool back =
-      answer.b_to_a && share_within(answer, true).lower < share_within(answer, false).lower;
+/// "at least 99.5 % of A's area is within 0.1 mm of B": as much as the verdict on that mesh says.
+std::string share_in_words(const Answer& answer, bool back) {
+  const double asked = *answer.max->area;
   const Enclosure share = share_within(answer, back);
+  const Verdict verdict = verdict_of(answer, back);
+  const std::string low = percent(share.lower, asked, Rounding::kDown);
+  const std::string high = percent(share.upper, asked, Rounding::kUp);
   const bool are_points = answer.inputs[back ? 1 : 0].are_points;
-  const std::string of = std::string(" of ") + (back ? "B" : "A") +
-                         (are_points ? "'s points are within " : "'s area is within ") +
-                         limit_text(answer, answer.max->length) + " of " + (back ? "A" : "B");
-  const std::string asked = " (" + answer.max->area_requested + " asked)";
+  return (verdict == Verdict::kWithin   ? "at least " + low
+          : verdict == Verdict::kBeyond ? "at most " + high
+                                        : "from " + low + " to " + high) +
+         " of " + (back ? "B" : "A") +
+         (are_points ? "'s points are within " : "'s area is within ") +
+         limit_text(answer, answer.max->length) + " of " + (back ? "A" : "B");
+}
+
+/// Describes the mesh that decides, and then the other one: the former is not within, if one is
+/// not.
+std::string area_in_words(const Answer& answer) {
   const Verdict verdict = verdict_of(answer);
-  if (verdict == Verdict::kWithin)
-    return "PASS  at least " + percent(share.lower, area, Rounding::kDown) + of + ", proven" +
-           asked;
-  if (verdict == Verdict::kBeyond)
-    return "FAIL  at most " + percent(share.upper, area, Rounding::kUp) + of + ", proven" + asked;
-  return "UNDECIDED  from " + percent(share.lower, area, Rounding::kDown) + " to " +
-         percent(share.upper, area, Rounding::kUp) + of + asked + survey_hint(answer, back);
+  const bool back = verdict_of(answer, false) != verdict;
+  std::string text = share_in_words(answer, back);
+  if (answer.b_to_a) text += ", and " + share_in_words(answer, !back);
+  const std::string asked = " (" + answer.max->area_requested + " asked)";
+  if (verdict == Verdict::kWithin) return "PASS  " + text + ", proven" + asked;
+  if (verdict == Verdict::kBeyond) return "FAIL  " + text + ", proven" + asked;
+  return "UNDECIDED  " + text + asked + survey_hint(answer, back);
 }
 
 /// The largest deviation of a PASS, as far as it is known: the run ends once the limit is decided.

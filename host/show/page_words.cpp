@@ -96,14 +96,18 @@ std::string failed_sentence(const Answer& answer, bool back) {
   return text + ". The limit there is " + unit_after(answer, nearest(faces->limit.within, 9)) + ".";
 }
 
-std::string area_sentence(const Answer& answer) {
-  const bool back =
-      answer.b_to_a && share_within(answer, true).lower < share_within(answer, false).lower;
+std::string share_sentence(const Answer& answer, bool back) {
   const bool are_points = answer.inputs[back ? 1 : 0].are_points;
   return share_text(share_within(answer, back), *answer.max->area) +
          (are_points ? " of the points of " : " of the area of ") + from_of(back) + " is within " +
-         limit_text(answer) + " of " + other_of(back) +
-         ". Asked for: " + answer.max->area_requested + ".";
+         limit_text(answer) + " of " + other_of(back) + ". ";
+}
+
+// The mesh that decides comes first.
+std::string area_sentence(const Answer& answer, Verdict verdict) {
+  const bool back = verdict_of(answer, false) != verdict;
+  return share_sentence(answer, back) + (answer.b_to_a ? share_sentence(answer, !back) : "") +
+         "Asked for: " + answer.max->area_requested + ".";
 }
 
 std::string typed_text(const Answer& answer, const Length& length) {
@@ -136,7 +140,7 @@ std::string faces_sentence(const Answer& answer) {
 
 std::string gate_sentence(const Answer& answer, Verdict verdict) {
   const Asked& max = *answer.max;
-  if (max.area) return area_sentence(answer);
+  if (max.area) return area_sentence(answer, verdict);
   if (max.sides) return sides_sentence(answer, verdict);
   if (verdict == Verdict::kBeyond)
     return failed_sentence(answer, verdict_of(answer, false) != Verdict::kBeyond);

@@ -94,6 +94,26 @@ TEST_CASE("a page says which way outward is where B is inside out") {
   CHECK(warns() == 1);
 }
 
+TEST_CASE("a page tells the shares of both areas, and first the one that decides") {
+  Invented pair = small_pair();
+  pair.ask(1.2);
+  vkh::Answer& answer = pair.answer;
+  answer.max->area = 0.99;
+  answer.max->area_requested = "99%";
+  const auto give = [&](std::optional<vkh::SurveyResult>& survey, double lower, double upper) {
+    survey.emplace();
+    survey->statistics.emplace();
+    survey->statistics->bands = {{.distance = answer.max->limit.within, .share = {lower, upper}}};
+  };
+  give(answer.survey_a, 0.995, 0.996);
+  give(answer.survey_b, 0.9, 0.95);
+  const std::string sentence = vkh::headline_of(answer).sentence;
+  INFO(sentence);
+  CHECK(sentence.starts_with("89.99 to 95.01 % of the area of B is within "));
+  CHECK(count_of(sentence, ". 99.49 to 99.61 % of the area of A is within ") == 1);
+  CHECK(sentence.ends_with(". Asked for: 99%."));
+}
+
 TEST_CASE("a page has the title that was asked for") {
   const Invented pair = small_pair();
   vkh::PageContents contents = pair.contents();

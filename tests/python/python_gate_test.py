@@ -32,6 +32,16 @@ class Gates(unittest.TestCase):
         self.assertEqual(r.stats["direction"], "b_to_a")
         self.assertEqual(vkh.gate(B, LONG, 1.001, symmetric=True).verdict, "pass")
 
+    def test_an_error_about_areas_names_the_mesh_that_fails(self):
+        def found(lower, upper):
+            return types.SimpleNamespace(bands={}, area_within=lambda _: vkh.Interval(lower, upper))
+
+        r = types.SimpleNamespace(verdict="fail", stats={"area": 0.99}, survey=found(0.5, 1.0), survey_back=found(0.9, 0.95))
+        self.assertEqual(vkh._say_area(r, 0.1), "FAIL: at most 0.95 of B's area is within 0.1 of A; 0.99 was asked")
+        r.verdict = "undecided"
+        r.survey_back = found(0.995, 0.999)
+        self.assertEqual(vkh._say_area(r, 0.1), "UNDECIDED: from 0.5 to 1.0 of A's area is within 0.1 of B; 0.99 was asked")
+
     def test_meshes_are_pairs_or_objects(self):
         as_faces = types.SimpleNamespace(vertices=A[0], faces=A[1])
         as_triangles = types.SimpleNamespace(vertices=B[0], triangles=B[1])

@@ -77,6 +77,23 @@ std::string table_of(const Answer& answer) {
   return out.str();
 }
 
+TEST_CASE("a share of both areas names both, and first the one that decides") {
+  CHECK(in_words(by_area({1, 1}, Enclosure{0.995, 0.996})) ==
+        "PASS  at least 100 % of A's area is within 0.1 mm of B, and at least 99.499 % of B's area "
+        "is within 0.1 mm of A, proven (99% asked)");
+  CHECK(in_words(by_area({0.995, 1}, Enclosure{0.9, 0.95})) ==
+        "FAIL  at most 95.01 % of B's area is within 0.1 mm of A, and at least 99.499 % of A's "
+        "area is "
+        "within 0.1 mm of B, proven (99% asked)");
+  // B has the greater share of what is proven, and fails.
+  CHECK(in_words(by_area({0, 1}, Enclosure{0.9, 0.95}))
+            .starts_with("FAIL  at most 95.01 % of B's area is within 0.1 mm of A, and from 0 % to "
+                         "100 % of A's area is within 0.1 mm of B"));
+  const std::string one = in_words(by_area({0.995, 1}));
+  CHECK(one.starts_with("PASS  at least 99.499 % of A's area is within 0.1 mm of B, proven (99%"));
+  CHECK_FALSE(has(one, "B's area"));
+}
+
 TEST_CASE("what is undecided asks for more of what ended it") {
   const auto check = [](SurveyEnd ended, const std::string& advice) {
     const Answer area = by_area({0.98, 0.995}, {}, ended);

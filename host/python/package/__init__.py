@@ -42,8 +42,12 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
 def _say_area(r, max):
     """The reason why the share of the area that was asked is not proven."""
     sides = [("A", "B", r.survey), *([("B", "A", r.survey_back)] if r.survey_back is not None else [])]
-    worst = min(sides, key=lambda side: side[2].area_within(max).lower if side[2].bands is not None else 0)
-    a, b, survey = worst
+
+    def known(side):  # the least upper end fails if one does, and the least lower end is not within if one is not
+        share = side[2].area_within(max) if side[2].bands is not None else (0, 1)
+        return share[1] if r.verdict == "fail" else share[0]
+
+    a, b, survey = min(sides, key=known)
     if survey.bands is None:
         return f"UNDECIDED: nothing is known of {a}'s area"
     share, asked = survey.area_within(max), r.stats["area"]
