@@ -434,6 +434,7 @@ Asked asked_of(const Json& json) {
             .faces_b = face_limits_at(json, "faces_b")};
   if (json.contains("area")) max.area = number_at(json, "area");
   if (json.contains("sides")) max.sides = asked_sides_of(json.at("sides"));
+  if (json.contains("worst")) max.worst = truth_at(json, "worst");
   return max;
 }
 

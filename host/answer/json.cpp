@@ -123,9 +123,9 @@ std::string interval_json(double lower, double upper, double gap, const std::str
   return json.text();
 }
 
-void add_status(JsonObject& json, Status status) {
+void add_status(JsonObject& json, const Answer& answer, Status status) {
   json.add("status", status_name(status));
-  json.add("stop_reason", stop_reason(status));
+  json.add("stop_reason", stop_reason(answer, status));
 }
 
 Json diagonal_of(const Length& length) {
@@ -164,6 +164,7 @@ std::string max_json(const Answer& answer) {
   json.add("diagonal_of", diagonal_of(answer.max->length));
   if (answer.max->area) json.add("area", *answer.max->area);
   if (answer.max->sides) json.add("sides", sides_json(answer));
+  if (answer.max->worst) json.add("worst", true);
   if (answer.max->faces_a) json.add("faces_a", faces_json(*answer.max->faces_a));
   if (answer.max->faces_b) json.add("faces_b", faces_json(*answer.max->faces_b));
   return json.text();
@@ -233,7 +234,7 @@ std::string direction_json(const Answer& answer, const Report& r, bool back, Det
   JsonObject json;
   json.add("from", back ? "b" : "a");
   json.add("to", back ? "a" : "b");
-  add_status(json, r.status);
+  add_status(json, answer, r.status);
   json.add_text("interval", interval_json(r.lower, r.upper, r.gap(), answer.unit));
   json.add("known_lower", r.known_lower);
   json.add("witness", witness_json(r));
@@ -267,7 +268,7 @@ void add_hashes(Json& json, const Input& input) {
 void add_answer(JsonObject& json, const Answer& answer, Detail detail) {
   const CertifiedInterval whole = interval_of(answer);
   json.add("words", in_words(answer));
-  add_status(json, whole.status);
+  add_status(json, answer, whole.status);
   if (answer.max) {
     json.add("verdict", verdict_name(verdict_of(answer)));
     json.add_text("max", max_json(answer));

@@ -115,6 +115,7 @@ void add_search(Report& report, const Report& worst) {
 /// is for people to read.
 void find_worst(const Question& question, std::span<Solver* const> solvers,
                 const AskedMeshes& meshes, const Observer& observer, Answer& answer) {
+  answer.max->worst = true;
   SolveOptions options = heard_options(question, observer, answer);
   options.limit = {};
   options.wave_limit = std::min(options.wave_limit, kWorstWaves);

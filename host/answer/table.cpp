@@ -52,14 +52,15 @@ std::string bounds(double lower, double upper, double gap) {
 std::string reason(const Answer& answer, Status status) {
   const double delta = std::max(answer.inputs[0].place.delta, answer.inputs[1].place.delta);
   if (status != Status::kPrecision || !(2 * delta > answer.a_to_b.tolerance))
-    return stop_reason(status);
+    return stop_reason(answer, status);
   return "a surface is known to within " + decimal(delta, 3, Rounding::kUp) +
          ", which no smaller --tol narrows";
 }
 
 std::string ending(const Answer& answer, Status status) {
   if (status == Status::kPruned || status == Status::kLimit)
-    return std::string(status == Status::kPruned ? "pruned: " : "decided: ") + stop_reason(status);
+    return std::string(status == Status::kPruned ? "pruned: " : "decided: ") +
+           stop_reason(answer, status);
   return std::string(status == Status::kClosed ? "closed" : "NOT CLOSED (") +
          (status == Status::kClosed ? "" : std::string(status_name(status)) + ")") + ": " +
          reason(answer, status);
@@ -303,7 +304,8 @@ std::string direction_text(const Answer& answer, const Report& r) {
 void print_interval(std::ostream& out, const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const bool is_sought = is_upper_sought(answer, whole.lower, whole.upper);
-  const bool has_worst = answer.max && !answer.max->faces_a && !answer.max->faces_b;
+  const bool has_worst =
+      answer.max && !answer.max->faces_a && !answer.max->faces_b && !answer.max->worst;
   print_row(out, is_sought ? "interval" : "distance",
             enclosed(answer, whole.lower, whole.upper, whole.status) +
                 (is_sought || !has_worst ? "" : "; --worst goes on to the farthest point"));

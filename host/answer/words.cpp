@@ -209,7 +209,8 @@ std::string deviation_in_words(const Answer& answer, const CertifiedInterval& wh
            length_down(answer, whole.lower, std::max(gap, 2e-3 * whole.lower));
   if (whole.upper <= 0.5 * answer.max->limit.within)
     return "largest deviation at most " + length_up(answer, whole.upper, gap);
-  return "largest deviation in " + interval_text(answer, whole) + "; --worst narrows it";
+  return "largest deviation in " + interval_text(answer, whole) +
+         (answer.max->worst ? "" : "; --worst narrows it");
 }
 
 /// One side of a verdict: "0.21 mm over B at (1, 2, 3) on face 12 of A, limit 0.2 mm".
@@ -402,6 +403,12 @@ const char* stop_reason(Status status) {
       return "the search stopped once the verdict was certain";
   }
   return "unknown";
+}
+
+const char* stop_reason(const Answer& answer, Status status) {
+  if (status == Status::kLimit && answer.max && answer.max->worst)
+    return "the verdict was certain, and the search went on to the farthest point";
+  return stop_reason(status);
 }
 
 std::string length_down(const Answer& answer, double length, double gap) {

@@ -61,6 +61,7 @@ class Outputs(unittest.TestCase):
                             (["metrics", "a.obj", "wide.obj", "--bands", "0.1abs,20%", "--unit", "mm"], 0), (["metrics", "a.obj", "b.obj", "--time", "1ms"], 3),
                             (["gate", "a.obj", "b.obj", "--max", "0.3abs", "--area", "99%"], 0),
                             (["gate", "a.obj", "b.obj", "--max", "0.1abs", "--image", "o.png"], 1),
+                            (["gate", "a.obj", "b.obj", "--max", "0.1abs", "--worst"], 1), (["gate", "a.obj", "b.obj", "--max", "0.3abs", "--time", "1ms"], None),
                             (["distance", "a.obj", "b.obj", "--signed"], 0), (["distance", "a.obj", "wide.obj", "--signed", "--stats", "--symmetric"], 0),
                             (["gate", "a.obj", "b.obj", "--max=+0.3abs,-0.3abs", "--signed", "--stats"], 0),
                             (["gate", "a.obj", "b.obj", "--max=+0.1abs,-0.1abs"], 1), (["gate", "a.obj", "b.obj", "--max=+0.1abs"], 2),

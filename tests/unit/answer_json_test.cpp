@@ -356,7 +356,7 @@ TEST_CASE("a member that is missing is refused, unless it may be or says nothing
       "file",      "face",        "notes",  // or is of a note
       "part",      "parts",       "boxes", "more_devices", "barycentric", "certificate",
       "coverage",  "faces_a",     "field", "verified",     "exact",       "u1",
-      "transform", "estimate",    "jump",  "inside_out"};
+      "transform", "estimate",    "jump",  "inside_out",   "worst"};
   for (const Answer& answer : all_kinds()) {
     const Json whole = Json::parse(to_json(answer));
     for_each_value(whole, "", [&](const std::string& at, const Json&) {

@@ -135,6 +135,23 @@ TEST_CASE("lengths in a unit wait for the meshes") {
   CHECK(Json::parse(to_json(gate(0.2, 0.3)))["max"]["within"] == 0.1);
 }
 
+TEST_CASE("a search that went on to the farthest point says so") {
+  Answer answer = gate(0.2, 0.2001);
+  CHECK(has(table_of(answer), "decided: the search stopped once the verdict was certain\n"));
+  answer.max->worst = true;
+  const std::string reason =
+      "the verdict was certain, and the search went on to the farthest point";
+  CHECK(has(table_of(answer), "decided: " + reason + "\n"));
+  const Json json = Json::parse(to_json(answer));
+  CHECK(json["stop_reason"] == reason);
+  CHECK(json["directions"][0]["stop_reason"] == reason);
+  CHECK(to_json(answer_from_json(to_json(answer))) == to_json(answer));
+  answer = gate(0.01, 0.09);
+  CHECK(has(in_words(answer), "; --worst narrows it"));
+  answer.max->worst = true;
+  CHECK_FALSE(has(in_words(answer), "--worst"));
+}
+
 TEST_CASE("limits of sides are conditional on a B that is not inside out") {
   Answer answer = gate(0.05, 0.15);
   answer.max->sides = AskedSides{parse_length("--max", "0.2mm", PlainNumber::kRefused),

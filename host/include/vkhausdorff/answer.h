@@ -72,6 +72,7 @@ struct Asked {
   std::optional<double> area = {};
   std::string area_requested = {};       ///< the share as the user typed it
   std::optional<AskedSides> sides = {};  ///< if set, `length` and `limit` are the larger ones
+  bool worst = false;  ///< the search went on to the farthest point once the verdict was certain
 };
 
 /// The times that a user waited, in milliseconds; parts that ran side by side overlap.
@@ -125,8 +126,9 @@ const SignedFigures* sides_of(const Answer& answer, bool back);
 /// The summary of a survey's field, by the limits that were asked about.
 FieldSummary summary_of(const Answer& answer, const SurveyResult& survey);
 
-/// One sentence for each status.
+/// One sentence for each status; of an answer's, it says whether the search went on.
 const char* stop_reason(Status status);
+const char* stop_reason(const Answer& answer, Status status);
 
 /// The notes on the pair, those that its verdict brings among them.
 std::vector<Note> notes_of(const Answer& answer);
