@@ -237,10 +237,12 @@ std::string github_summary(const Answer& answer) {
   if (answer.max) text += "| max | " + github_code(answer.max->length.requested) + " |\n";
   const CertifiedInterval whole = interval_of(answer);
   const double gap = gap_as_printed(answer, whole.lower, whole.upper);
-  text += "| interval | " +
-          github_code("[" + length_down(answer, whole.lower, gap) + ", " +
-                      length_up(answer, whole.upper, gap) + "]") +
-          " |\n";
+  const std::string lower = length_down(answer, whole.lower, gap);
+  text += is_upper_sought(answer, whole.lower, whole.upper)
+              ? "| interval | " +
+                    github_code("[" + lower + ", " + length_up(answer, whole.upper, gap) + "]")
+              : "| distance | " + github_code("at least " + lower);
+  text += " |\n";
   if (!answer.a_to_b.device.name.empty())
     text += "| device | " + github_code(answer.a_to_b.device.name) + " |\n";
   for (const std::string& note : server_notes_of(answer))

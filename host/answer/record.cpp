@@ -118,6 +118,7 @@ void read_answer(const Json& json, Record& record) {
   record.unit = text_in(interval, "unit");
   const Json& max = member(json, "max");
   record.limit = {number_in(max, "within", 0), number_in(max, "beyond", 0)};
+  record.is_by_area = member(max, "area").is_number();
   record.diagonal = number_in(member(json, "tolerance"), "diagonal", 0);
   record.words = text_in(json, "words");
   record.notes = notes_in(json);
@@ -194,6 +195,7 @@ Record record_of(const RecordName& name, const Answer& answer) {
   if (answer.max) {
     record.verdict = verdict_name(verdict_of(answer));
     record.limit = answer.max->limit;
+    record.is_by_area = answer.max->area.has_value();
   }
   record.lower = whole.lower;
   record.upper = whole.upper;

@@ -48,6 +48,7 @@ struct Record {
   std::array<Bounds, 2> directions;
   double gap = 0, diagonal = 0;  ///< diag(A), to nearest; 0: not known
   Limit limit;                   ///< the limit in the unit; 0: none was asked about
+  bool is_by_area = false;       ///< a share of the area is to be within it
   std::string unit;
   struct Side {
     std::string path, sha256;
@@ -74,6 +75,10 @@ struct Record {
 
   /// Whether another run of the same inputs would give the same result, but for times.
   bool is_final() const;
+  /// Whether the upper end was sought: is_upper_sought() of the answer.
+  bool is_upper_sought() const {
+    return is_by_area || code != kExitBeyond || is_farthest_known(lower, upper);
+  }
   /// Whether it is the failure of a file that has no partner, in a batch of two folders.
   bool is_unpaired() const { return inputs[0].path.empty() != inputs[1].path.empty(); }
   /// Whether the key covers all files that were read; before 0.2.0 it covered the two that a list

@@ -283,13 +283,6 @@ void print_sizes(std::ostream& out, const Answer& answer) {
   }
 }
 
-/// After a FAIL the upper end was not sought, and would mislead: it is in JSON. A question about a
-/// share of the area seeks it whatever its verdict is.
-bool is_upper_sought(const Answer& answer, double lower, double upper) {
-  return !answer.max || answer.max->area || verdict_of(answer) != Verdict::kBeyond ||
-         is_farthest_known(lower, upper);
-}
-
 std::string enclosed(const Answer& answer, double lower, double upper, Status status) {
   const double gap = gap_as_printed(answer, lower, upper);
   return (is_upper_sought(answer, lower, upper) ? bounds(lower, upper, gap)

@@ -117,14 +117,17 @@ std::string csv_heading(const CsvColumns& with) {
 std::string csv_row(const Record& r, const CsvColumns& with) {
   const bool has_answer = !r.status.empty();
   const auto known = [&](const std::string& text) { return has_answer ? text : std::string(); };
+  const auto sought = [&](const std::string& text) {
+    return r.is_upper_sought() ? known(text) : std::string();
+  };
   std::vector<std::string> cells{
       r.name.id,
       std::to_string(static_cast<int>(r.code)),
       r.status,
       r.verdict,
       known(bound(r.lower, Rounding::kDown)),
-      known(bound(r.upper, Rounding::kUp)),
-      known(shortest_decimal(r.gap)),
+      sought(bound(r.upper, Rounding::kUp)),
+      sought(shortest_decimal(r.gap)),
       r.unit,
       r.inputs[0].path,
       r.inputs[1].path,

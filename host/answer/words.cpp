@@ -411,6 +411,11 @@ const char* stop_reason(const Answer& answer, Status status) {
   return stop_reason(status);
 }
 
+bool is_upper_sought(const Answer& answer, double lower, double upper) {
+  return !answer.max || answer.max->area || verdict_of(answer) != Verdict::kBeyond ||
+         is_farthest_known(lower, upper);
+}
+
 std::string length_down(const Answer& answer, double length, double gap) {
   return with_unit(decimal(length, digits_that_matter(length, gap), Rounding::kDown), answer);
 }

@@ -49,10 +49,9 @@ std::string limit_in_words(const Record& record) {
 /// The interval, or the lower end alone if a run ended beyond its limit: its upper end means
 /// nothing.
 std::string deviation_in_words(const Record& record) {
-  const bool is_sought =
-      outcome_of(record) != Outcome::kBeyond || is_farthest_known(record.lower, record.upper);
-  const Enclosure deviation{record.lower,
-                            is_sought ? record.upper : std::numeric_limits<double>::infinity()};
+  const Enclosure deviation{record.lower, record.is_upper_sought()
+                                              ? record.upper
+                                              : std::numeric_limits<double>::infinity()};
   const std::string text = figure_text(deviation, record.limit);
   return record.unit.empty() || text == "not known" ? text : text + " " + record.unit;
 }

@@ -316,6 +316,10 @@ Result result_of(const Question& question, const Answer& answer, const MeshPoint
   return result;
 }
 
+bool Result::is_upper_sought() const {
+  return verdict != Verdict::kBeyond || stats.contains("area") || is_farthest_known(lower, upper);
+}
+
 const char* Result::verdict_name() const { return verdict ? vkh::verdict_name(*verdict) : nullptr; }
 
 }  // namespace vkh::python

@@ -19,10 +19,11 @@ std::string text_of(const Result& r) {
     return std::string("<vkhausdorff.Result without an answer: ") +
            Py_TYPE(r.error.ptr())->tp_name + ": " + py::cast<std::string>(py::str(r.error)) + ">";
   const FloatEnvironment ours;
-  std::string text = "<vkhausdorff.Result [";
-  text += decimal(r.lower, 9, Rounding::kDown) + ", ";
-  text += decimal(r.upper, 9, Rounding::kUp) + "] ";
-  return text + status_name(r.status) + ">";
+  const std::string lower = decimal(r.lower, 9, Rounding::kDown);
+  std::string text = "<vkhausdorff.Result ";
+  text += r.is_upper_sought() ? "[" + lower + ", " + decimal(r.upper, 9, Rounding::kUp) + "]"
+                              : "at least " + lower;
+  return text + " " + status_name(r.status) + ">";
 }
 
 py::tuple point_of(const SurfacePoint& p) {
@@ -279,6 +280,8 @@ void define_result(py::module_& m) {
                              "row of fb with its partner")
       .def_property_readonly("_barycentric_a",
                              of_result([](const Result& r) { return barycentric_of(r.witness_a); }))
+      .def_property_readonly("_is_upper_sought",
+                             of_result([](const Result& r) { return r.is_upper_sought(); }))
       .def_property_readonly("_barycentric_b",
                              of_result([](const Result& r) { return barycentric_of(r.witness_b); }))
       .def_property_readonly(

@@ -27,6 +27,8 @@ struct Result {
   pybind11::object error = pybind11::none();  ///< the exception, instead of an answer
 
   bool closed() const { return status == Status::kClosed; }
+  /// Whether the upper end was sought: vkh::is_upper_sought() of the answer.
+  bool is_upper_sought() const;
   /// Returns "pass", "fail", "undecided"; null without a limit.
   const char* verdict_name() const;
 };

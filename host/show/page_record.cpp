@@ -76,8 +76,9 @@ std::string times_text(const PageText& page) {
 // Writes the JSON's own digits, outward.
 std::string every_digit(const PageText& page) {
   const CertifiedInterval whole = interval_of(page.answer);
-  return "[" + decimal(whole.lower, kJsonDigits, Rounding::kDown) + ", " +
-         decimal(whole.upper, kJsonDigits, Rounding::kUp) + "]";
+  const std::string lower = decimal(whole.lower, kJsonDigits, Rounding::kDown);
+  if (!is_upper_sought(page.answer, whole.lower, whole.upper)) return "at least " + lower;
+  return "[" + lower + ", " + decimal(whole.upper, kJsonDigits, Rounding::kUp) + "]";
 }
 
 std::string device_text(const Json& json) {

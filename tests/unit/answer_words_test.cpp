@@ -152,6 +152,30 @@ TEST_CASE("a search that went on to the farthest point says so") {
   CHECK_FALSE(has(in_words(answer), "--worst"));
 }
 
+// The cells of one row, by the heading's names.
+std::string cell_of(const Answer& answer, const std::string& name) {
+  std::istringstream text(csv_heading({}) + csv_row(record_of({"x", "key"}, answer), {}));
+  CsvReader reader(text);
+  const std::vector<std::string> names = *reader.next(), cells = *reader.next();
+  return cells[static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+}
+
+TEST_CASE("an upper end that was not sought is no figure of a table") {
+  const Answer failed = gate(0.25, 117);
+  CHECK(cell_of(failed, "lower") == "0.25");
+  CHECK(cell_of(failed, "upper").empty());
+  CHECK(cell_of(failed, "gap").empty());
+  CHECK(has(github_summary(failed), "| distance | `at least 0.25 mm` |"));
+  CHECK(read_record(to_record({"x", "key"}, failed)).upper == 117);
+  CHECK_FALSE(read_record(to_record({"x", "key"}, failed)).is_upper_sought());
+  for (const Answer& sought : {gate(0.05, 0.3), gate(0.2, 0.2001), by_area({0.1, 0.2})}) {
+    CHECK_FALSE(cell_of(sought, "upper").empty());
+    CHECK_FALSE(cell_of(sought, "gap").empty());
+    CHECK(has(github_summary(sought), "| interval | `["));
+    CHECK(read_record(to_record({"x", "key"}, sought)).is_upper_sought());
+  }
+}
+
 TEST_CASE("limits of sides are conditional on a B that is not inside out") {
   Answer answer = gate(0.05, 0.15);
   answer.max->sides = AskedSides{parse_length("--max", "0.2mm", PlainNumber::kRefused),

@@ -147,6 +147,10 @@ inline bool is_farthest_known(double lower, double upper) {
   return lower > 0 && upper - lower <= 2e-3 * lower;
 }
 
+/// Whether the upper end of an interval of the answer was sought. After a FAIL it was not, and
+/// would mislead people. A question about a share of the area seeks it whatever its verdict is.
+bool is_upper_sought(const Answer& answer, double lower, double upper);
+
 /// The gap that an interval's ends are rounded to in print: its width, or less, so that neither end
 /// is printed on the other side of the limit.
 double gap_as_printed(const Answer& answer, double lower, double upper);

@@ -50,11 +50,12 @@ def _to_frame(self):
 
 
 def _repr_html(r: Result) -> str | None:
-    """The same row as a table, for notebooks."""
+    """The same row as a table, for notebooks, without an upper end that was not sought."""
     if r.error is not None:
         return None
+    left_out = () if r._is_upper_sought else ("upper", "gap")
     cells = "".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>"
-                    for name, value in _row(r).items() if value not in (None, ""))
+                    for name, value in _row(r).items() if value not in (None, "") and name not in left_out)
     return f"<table>{cells}</table>"
 
 
