@@ -246,11 +246,12 @@ std::string metric_text(const Metric& metric, const std::string& unit) {
   return figure(e, unit) + goal_text(metric);
 }
 
-std::string share_metric_text(const Metric& metric) {
+// `of`: what the share is of, before any remark.
+std::string share_metric_text(const Metric& metric, const std::string& of) {
   const Enclosure percent = in_percent(metric.value);
-  if (percent.lower == percent.upper) return likely_text(percent, kShownPercent) + " %";
-  return likely_text(percent, kShownPercent) + " %, in " + share_text(metric.value) +
-         goal_text(metric);
+  const std::string likely = likely_text(percent, kShownPercent) + " %";
+  if (percent.lower == percent.upper) return likely + of;
+  return likely + ", in " + share_text(metric.value) + of + goal_text(metric);
 }
 
 // Whether a figure is told: it is asked for, and it is one.
@@ -302,9 +303,10 @@ std::vector<TableRow> metrics_rows(const Answer& answer) {
   for (const MetricsWithin& at : m.within) {
     for (const NamedShare& share : kNamedShares) {
       if (is_shown(m, share))
-        rows.push_back({share.name, share_metric_text(at.*share.figure) + " within " +
-                                        distance_text(answer, at) +
-                                        (share.of_normals ? angle_text(*m.normals) : "")});
+        rows.push_back(
+            {share.name, share_metric_text(at.*share.figure,
+                                           " within " + distance_text(answer, at) +
+                                               (share.of_normals ? angle_text(*m.normals) : ""))});
     }
   }
   return rows;

@@ -176,6 +176,23 @@ TEST_CASE("an upper end that was not sought is no figure of a table") {
   }
 }
 
+TEST_CASE("a share's remark follows its distance") {
+  Answer answer = gate(0.2, 0.3);
+  answer.max.reset();
+  answer.metrics.emplace();
+  MetricsWithin at;
+  at.distance = 0.05;
+  at.nsd.value = {0.697284, 0.925233, 0.916};
+  answer.metrics->within = {at};
+  answer.metrics->figures = {"nsd"};
+  const std::vector<TableRow> rows = metrics_rows(answer);
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0].label == "nsd");
+  CHECK(rows[0].text ==
+        "91.6 %, in [69.7283, 92.5234] % within 0.05 mm; wider than asked: more "
+        "--effort narrows it");
+}
+
 TEST_CASE("limits of sides are conditional on a B that is not inside out") {
   Answer answer = gate(0.05, 0.15);
   answer.max->sides = AskedSides{parse_length("--max", "0.2mm", PlainNumber::kRefused),
