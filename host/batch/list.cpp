@@ -10,6 +10,7 @@
 
 #include "host/answer/csv.h"
 #include "host/base/byte_order_mark.h"
+#include "host/base/edits.h"
 #include "host/base/id_hash.h"
 #include "host/base/meant.h"
 #include "host/base/parse_number.h"
@@ -46,6 +47,54 @@ std::string lower_word(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
+}
+
+/// A name that people give to a column, in lower case and without blanks, and ours.
+struct Synonym {
+  const char* name;
+  const char* meant;
+};
+constexpr std::array kSynonyms{Synonym{"limit", "max"},          Synonym{"maximum", "max"},
+                               Synonym{"threshold", "max"},      Synonym{"maxdistance", "max"},
+                               Synonym{"maxdeviation", "max"},   Synonym{"tolerance", "max or tol"},
+                               Synonym{"bothways", "symmetric"}, Synonym{"matrix", "transform"},
+                               Synonym{"sign", "signed"},        Synonym{"aligned", "align"},
+                               Synonym{"pointcloud", "points"}};
+
+/// Leaves the letters and digits of a name, in lower case.
+std::string letters_of(const std::string& name) {
+  std::string letters = lower_word(name);
+  std::erase_if(letters, [](char c) {
+    return std::string_view(" \t_-.()[]:").find(c) != std::string_view::npos;
+  });
+  return letters;
+}
+
+/// A length's column with its unit, such as "max (mm)".
+bool is_with_unit(const std::string& letters, const std::string& column) {
+  if (!letters.starts_with(column) || (column != "max" && column != "tol")) return false;
+  const std::string unit = letters.substr(column.size());
+  return !unit.empty() && unit_meant(unit) == unit;
+}
+
+/// Returns the column that a name which is none may mean, such as max for Max, maxx and limit; else
+/// nothing. A name of one or two letters is one edit from too many.
+std::string column_meant(const std::string& name) {
+  constexpr size_t kLongEnough = 3;
+  const std::string letters = letters_of(name);
+  for (const Column& column : kColumns) {
+    const std::string known = letters_of(column.name);
+    if (letters == known || is_with_unit(letters, known)) return column.name;
+  }
+  for (const Synonym& synonym : kSynonyms) {
+    if (letters == synonym.name) return synonym.meant;
+  }
+  for (const Column& column : kColumns) {
+    const std::string known = letters_of(column.name);
+    if (std::min(known.size(), letters.size()) >= kLongEnough && edits(letters, known) <= 1)
+      return column.name;
+  }
+  return "";
 }
 
 // Accepts TRUE too, as spreadsheets write it.
@@ -97,7 +146,11 @@ class Collected {
     if (!entry.transform.empty()) entry.transform = name_of(folder_ / path_of(entry.transform));
     list.entries.push_back(std::move(entry));
   }
-  void note_stranger(const std::string& name) {
+  /// Refuses a name that nearly is one of ours: a limit that is passed over gives no verdict.
+  void note_stranger(const std::string& name, uint64_t line) {
+    const std::string meant = column_meant(name);
+    if (!meant.empty())
+      refuse(line, "'" + name + "': did you mean " + meant + "? expected " + list_columns());
     if (strangers_.insert(name).second)
       list.notes.push_back(path_ + ": '" + name + "' is not used; a batch knows " + list_columns());
   }
@@ -114,8 +167,16 @@ class Collected {
   std::set<std::string> strangers_;
 };
 
-// Requires each of the three columns once.
-void check_heading(const std::vector<std::string>& heading, uint64_t line, const Collected& to) {
+bool is_column(const std::string& name) {
+  return std::any_of(kColumns.begin(), kColumns.end(),
+                     [&](const Column& column) { return name == column.name; });
+}
+
+// Requires each of the three columns once, and no name that nearly is a column's.
+void check_heading(const std::vector<std::string>& heading, uint64_t line, Collected& to) {
+  for (const std::string& name : heading) {
+    if (!is_column(name)) to.note_stranger(name, line);
+  }
   for (size_t i = 0; i < kNeeded; ++i) {
     const char* const name = kColumns[i].name;
     const auto times = std::count(heading.begin(), heading.end(), name);
@@ -162,7 +223,7 @@ void read_csv(std::istream& text, Collected& to) {
     for (size_t i = 0; i < row->size(); ++i) {
       try {
         check_decimal_point((*heading)[i], (*row)[i], rows.separator());
-        if (!put(entry, (*heading)[i], (*row)[i])) to.note_stranger((*heading)[i]);
+        (void)put(entry, (*heading)[i], (*row)[i]);
       } catch (const InputError& error) {
         to.refuse(rows.line(), error.what());
       }
@@ -188,11 +249,11 @@ void read_jsonl(std::istream& text, Collected& to) {
     Entry entry;
     for (const auto& [name, value] : json.items()) {
       if (value.is_structured()) {
-        to.note_stranger(name);
+        to.note_stranger(name, number);
         continue;
       }
       try {
-        if (!put(entry, name, text_of(value))) to.note_stranger(name);
+        if (!put(entry, name, text_of(value))) to.note_stranger(name, number);
       } catch (const InputError& error) {
         to.refuse(number, error.what());
       }

@@ -136,6 +136,46 @@ TEST_CASE("what is wrong with a list is said with its line") {
   CHECK_THROWS_AS(read_list("/no/such/list.csv"), InputError);
 }
 
+TEST_CASE("a name that nearly is a column's is refused, and one that is like none is noted") {
+  const std::vector<std::pair<std::string, std::string>> meant = {{"Max", "max"},
+                                                                  {" max ", "max"},
+                                                                  {"maxx", "max"},
+                                                                  {"MAX (mm)", "max"},
+                                                                  {"tol_um", "tol"},
+                                                                  {"limit", "max"},
+                                                                  {"Limit", "max"},
+                                                                  {"Tolerance", "max or tol"},
+                                                                  {"units", "unit"},
+                                                                  {"unit-a", "unit_a"},
+                                                                  {"Unit B", "unit_b"},
+                                                                  {"symetric", "symmetric"},
+                                                                  {"point", "points"},
+                                                                  {"Align", "align"},
+                                                                  {"Signed", "signed"},
+                                                                  {"matrix", "transform"},
+                                                                  {"Transform", "transform"},
+                                                                  {"B", "b"}};
+  for (const auto& [name, column] : meant) {
+    const std::string hint = "'" + name + "': did you mean " + column + "? expected id, a, b and";
+    CHECK_MESSAGE(
+        error_of("n.csv", "id,a,b," + name + "\n1,a.obj,b.obj,0.1mm\n").find("line 1: " + hint) !=
+            std::string::npos,
+        name);
+    for (const char* value : {"\"0.1mm\"", "[1]"}) {
+      const std::string line =
+          R"({"id":"1","a":"a.obj","b":"b.obj",")" + name + "\":" + value + "}";
+      CHECK_MESSAGE(error_of("n.jsonl", line).find("line 1: " + hint) != std::string::npos, name);
+    }
+  }
+  CHECK(error_of("n.csv", "ID,a,b\n1,a.obj,b.obj\n").find("did you mean id?") != std::string::npos);
+  for (const char* name :
+       {"note", "c", "xy", "min", "mass", "max_stress", "volume", "author", ""}) {
+    const PairList list =
+        read_text("n.csv", std::string("id,a,b,") + name + "\n1,a.obj,b.obj,0.1mm\n");
+    CHECK_MESSAGE(list.notes.size() == 1, name);
+  }
+}
+
 TEST_CASE("shards: each id in one, about as many in each, whatever else there is") {
   for (const uint64_t count : {1u, 2u, 7u, 64u}) {
     std::map<uint64_t, int> sizes;
