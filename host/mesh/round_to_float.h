@@ -1,7 +1,9 @@
 // Conversions from double to float and back that the compiler keeps.
 #pragma once
 
+#include <cmath>
 #include <glm/vec3.hpp>
+#include <limits>
 
 namespace vkh {
 
@@ -11,6 +13,17 @@ namespace vkh {
 inline float nearest_float(double x) {
   volatile float rounded = static_cast<float>(x);
   return rounded;
+}
+
+/// The largest float that is no larger than x, and the least that is no smaller.
+inline float float_down(double x) {
+  const float f = nearest_float(x);
+  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
+                                    : f;
+}
+inline float float_up(double x) {
+  const float f = nearest_float(x);
+  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
 }
 
 inline double round_to_float(double x) { return static_cast<double>(nearest_float(x)); }

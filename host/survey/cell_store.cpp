@@ -99,6 +99,10 @@ void CellStore::see_split(size_t i) {
   opposite_[i] = can ? static_cast<uint8_t>(opposite) : kNoSplit;
 }
 
+void CellStore::close(std::span<const size_t> which) {
+  for (const size_t i : which) opposite_[i] = kNoSplit;
+}
+
 void CellStore::split(std::span<const size_t> which) {
   const size_t first = cells_.size();
   cells_.resize(first + which.size());

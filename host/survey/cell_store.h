@@ -33,8 +33,10 @@ class CellStore {
   /// Narrows the bounds of some cells to what was found. No cell is named twice.
   void narrow(std::span<const size_t> which, std::span<const gpu::CellBounds> found);
   /// Returns whether its longest edge's middle is a dyadic point of the face: 20 bits may have run
-  /// out.
+  /// out. A point is measured, once, in place of being split.
   bool can_split(size_t i) const { return opposite_[i] != kNoSplit; }
+  /// Marks cells whose bounds no split narrows: can_split() is false from now on.
+  void close(std::span<const size_t> which);
   /// Makes each cell one half of itself; the others are the last cells, in the same order. Both
   /// keep the bounds that hold for them, until they are narrowed. No cell is named twice.
   void split(std::span<const size_t> which);

@@ -103,6 +103,36 @@ inline double distance_below(const FromPoint& seen) {
   return least - 16 * kRound * seen.reach;
 }
 
+/// Above the distance of p from the triangles in the tree, of which there is one at least.
+/// `hint`: a triangle to look at first, or any other number.
+template <class CornersOf>
+double distance_above(const glm::dvec3& p, const TriangleTree& tree, uint32_t count,
+                      const CornersOf& corners, uint32_t hint) {
+  double best = std::numeric_limits<double>::infinity(), best2 = best;
+  const auto see = [&](uint32_t face) {
+    best = std::min(best, distance_above(seen_from(p, corners(face))));
+    best2 = best * best;
+  };
+  if (hint < count) see(hint);
+  tree.nearest_first(p, best2, see);
+  return best;
+}
+
+/// Below it. No point of a box is nearer than its distance, which is off by 8 kRound of itself at
+/// most; below it no face in it is.
+template <class CornersOf>
+double distance_below(const glm::dvec3& p, const TriangleTree& tree, uint32_t count,
+                      const CornersOf& corners, uint32_t hint) {
+  double best = std::numeric_limits<double>::infinity(), best2 = best;
+  const auto see = [&](uint32_t face) {
+    best = std::min(best, std::max(distance_below(seen_from(p, corners(face))), 0.0));
+    best2 = best * best;
+  };
+  if (hint < count) see(hint);
+  tree.nearest_first(p, best2, see);
+  return std::max(best * (1 - 16 * kRound) - kUnderflow, 0.0);
+}
+
 /// A cell's corners to within `off` in each coordinate.
 struct PlacedCell {
   Corners3 corners;

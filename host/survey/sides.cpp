@@ -129,14 +129,9 @@ int Sides::side_of_plane(const gpu::Cell& cell, const Corners3& plane) const {
 }
 
 double Sides::distance_up(const glm::dvec3& p, uint32_t hint) const {
-  double best = std::numeric_limits<double>::infinity(), best2 = best;
-  const auto see = [&](uint32_t face) {
-    best = std::min(best, distance_above(seen_from(p, shells_.corners(face))));
-    best2 = best * best;
-  };
-  if (hint < b_.faces.size()) see(hint);
-  shells_.tree().nearest_first(p, best2, see);
-  return best;
+  return distance_above(
+      p, shells_.tree(), static_cast<uint32_t>(b_.faces.size()),
+      [&](uint32_t face) { return shells_.corners(face); }, hint);
 }
 
 CellSide Sides::by_faces(const gpu::Cell& cell, uint32_t hint) const {
@@ -332,17 +327,10 @@ bool Sides::find_alone(const CellStore& cells, const std::vector<size_t>& open,
          });
 }
 
-// No point of a box is nearer than its distance, which is off by 8 kRound of itself at most; below
-// it no face in it is.
 double Sides::distance_down(const glm::dvec3& p, uint32_t hint) const {
-  double best = std::numeric_limits<double>::infinity(), best2 = best;
-  const auto see = [&](uint32_t face) {
-    best = std::min(best, std::max(distance_below(seen_from(p, shells_.corners(face))), 0.0));
-    best2 = best * best;
-  };
-  if (hint < b_.faces.size()) see(hint);
-  shells_.tree().nearest_first(p, best2, see);
-  return std::max(best * (1 - 16 * kRound) - kUnderflow, 0.0);
+  return distance_below(
+      p, shells_.tree(), static_cast<uint32_t>(b_.faces.size()),
+      [&](uint32_t face) { return shells_.corners(face); }, hint);
 }
 
 // The corner lies within 2 `off` of the double that stands for it, which is more than sqrt(3) off.

@@ -6,10 +6,12 @@
 #include <limits>
 #include <numeric>
 
+#include "host/base/parallel.h"
 #include "host/survey/distribution.h"
 #include "host/survey/goals.h"
 #include "host/survey/map_goal.h"
 #include "host/survey/normals.h"
+#include "host/survey/point_distances.h"
 #include "host/survey/pooled.h"
 #include "host/survey/signed_figures.h"
 #include "vkhausdorff/error.h"
@@ -39,7 +41,8 @@ class Bounding {
  public:
   Bounding(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options,
            bool keeps_time_for_sides)
-      : bound_(bound),
+      : pair_(pair),
+        bound_(bound),
         options_(options),
         ms_of_cells_(1000 * options.time_limit_s * (keeps_time_for_sides ? kPartOfCells : 1)),
         effort_(options.effort.value_or(default_effort(pair.on_cpu))),
@@ -75,6 +78,22 @@ class Bounding {
       spent_ += bounds.size();
     });
   }
+
+  // Measures points, each once and for ever. A point takes as much of the effort as a split.
+  void points(CellStore& store, std::span<const size_t> which) {
+    if (!distances_) distances_.emplace(pair_);
+    all(which.size(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
+      const std::span<const size_t> some = which.subspan(first, bounds.size());
+      for_each_range_of(kPointsOfThread, some.size(), [&](size_t, size_t begin, size_t end) {
+        for (size_t k = begin; k < end; ++k)
+          bounds[k] = distances_->narrowed(store.face(some[k]), store.bounds(some[k]));
+      });
+      store.narrow(some, bounds);
+      store.close(some);
+      spent_ += 2 * some.size();
+    });
+  }
+  bool are_points() const { return pair_.a.are_points; }
 
   // Whether the caller lets the survey go on, however long it took.
   bool is_wanted() {
@@ -129,7 +148,8 @@ class Bounding {
 
   static constexpr double kPartOfCells = 0.7;
   static constexpr size_t kLeastBatch = 64,  // even, as all are: halves come in twos
-      kMostBatch = size_t{1} << 20;
+      kMostBatch = size_t{1} << 20, kPointsOfThread = 256;
+  const SurveyedPair& pair_;
   const BoundCells& bound_;
   const SurveyOptions& options_;
   const Clock::time_point start_ = Clock::now();
@@ -140,6 +160,7 @@ class Bounding {
   size_t bounded_ = 0;
   double device_ms_ = 0;
   std::vector<size_t> which_;  // cells of a batch
+  std::optional<PointDistances> distances_;
   SurveyEnd ended_ = SurveyEnd::kMet, sides_ended_ = SurveyEnd::kMet;
 };
 
@@ -199,6 +220,16 @@ std::vector<size_t> chosen_cells(CellStore& store, Scores& scores, size_t most) 
   return cells;
 }
 
+// The points to measure, by their numbers.
+std::vector<size_t> chosen_points(Scores& scores, size_t most) {
+  const size_t count = count_that_matter(scores.cells, Scores::kNearlyAll, most);
+  std::vector<size_t> points;
+  points.reserve(count);
+  for (size_t i = 0; i < count; ++i) points.push_back(scores.cells[i].cell);
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
 // Refines until the goal is met, or cannot be, by splits of `budget` cells.
 SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal, size_t budget) {
   const size_t kept = bounding.splits_left() - budget;
@@ -210,7 +241,11 @@ SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal, size_t 
         std::min(std::max(store.count() / 2, kFewestSplits), bounding.splits_left() - kept);
     if (most == 0) return SurveyEnd::kEffort;
     if (!bounding.goes_on()) return bounding.ended();
-    bounding.halves(store, chosen_cells(store, scores, most));
+    if (bounding.are_points()) {
+      bounding.points(store, chosen_points(scores, most));
+    } else {
+      bounding.halves(store, chosen_cells(store, scores, most));
+    }
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "host/mesh/round_to_float.h"
@@ -11,16 +10,6 @@
 #include "vkhausdorff/field_file.h"
 
 namespace vkh {
-
-inline float float_down(double x) {
-  const float f = nearest_float(x);
-  return static_cast<double>(f) > x ? std::nextafter(f, -std::numeric_limits<float>::infinity())
-                                    : f;
-}
-inline float float_up(double x) {
-  const float f = nearest_float(x);
-  return static_cast<double>(f) < x ? std::nextafter(f, std::numeric_limits<float>::infinity()) : f;
-}
 
 /// Throws UsageError where a field has not one value for each face.
 inline void check_sizes(const FieldFile& file) {

@@ -18,10 +18,11 @@ namespace vkh {
 
 /// The reason why a survey ended; of several, the last one here.
 enum class SurveyEnd {
-  kMet,        ///< all goals are met
-  kBits,       ///< no split brings a goal nearer: 20 bits are used up, or A has no area
-  kEffort,     ///< SurveyOptions::effort is used
-  kTime,       ///< the time limit was over: another run may get further
+  kMet,     ///< all goals are met
+  kBits,    ///< no split brings a goal nearer: 20 bits are used up, points are measured, or A has
+            ///< no area
+  kEffort,  ///< SurveyOptions::effort is used
+  kTime,    ///< the time limit was over: another run may get further
   kCancelled,  ///< `goes_on` said so, or the run that it follows was cancelled
   kMemory,     ///< there was no memory for it
 };
@@ -93,7 +94,8 @@ struct SurveyOptions {
   /// No distance is above it, in the files' units.
   double upper = std::numeric_limits<double>::infinity();
   /// The number of cells that the device may bound besides each face once. Unset:
-  /// default_effort(). The host needs 60 to 90 bytes for each of them.
+  /// default_effort(). The host needs 60 to 90 bytes for each of them. A point of A is not split
+  /// but measured on the host, once, which takes as much of it as a split: two.
   std::optional<size_t> effort = {};
   /// The limit for the survey alone. A survey that it ends differs from run to run. Where sides are
   /// wanted, cells are split in the first 70 % of it, so that there is time to find them.
@@ -121,7 +123,7 @@ struct SurveyResult {
   bool is_met() const { return ended == SurveyEnd::kMet; }
   size_t effort = 0;  ///< SurveyOptions::effort, or the default
   size_t cells = 0;
-  size_t bounded = 0;  ///< cells that the device bounded, including those that were split later
+  size_t bounded = 0;  ///< cells that were bounded, including those that were split later
   double ms = 0;
   double device_ms = 0;  ///< part of `ms`: submissions, from the first byte sent to the last one
                          ///< read

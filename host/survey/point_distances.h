@@ -1,0 +1,36 @@
+// Distances of A's points from all of B, measured on the host in double: a point has no halves
+// whose bounds would be narrower.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "host/mesh/triangle_tree.h"
+#include "host/solve/cells.h"
+
+namespace vkh {
+
+class PointDistances {
+ public:
+  /// Keeps references to the pair's meshes; A's faces are points.
+  explicit PointDistances(const SurveyedPair& pair);
+
+  /// Narrows the bounds of a point of A, by its face. Its three corners are one, and so are its
+  /// bounds. Leaves them as they are where the scale of the frame rounds a coordinate.
+  gpu::CellBounds narrowed(uint32_t face, const gpu::CellBounds& bounds) const;
+
+ private:
+  Corners3 corners(uint32_t face) const;
+  std::optional<glm::dvec3> point(uint32_t face) const;
+
+  const Mesh &a_, &b_;
+  const Frame frame_;
+  const double displacement_;
+  bool is_exact_ = true;              // of B; before the vertices whose scaling tells it
+  std::vector<glm::dvec3> vertices_;  // B's, scaled
+  TriangleTree tree_;
+};
+
+}  // namespace vkh
