@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "host/base/decimal.h"
 #include "host/base/from_chars.h"
 #include "vkhausdorff/error.h"
 
@@ -175,8 +176,19 @@ double parse_up_to(double most, const char* unit, const char* option, const std:
 
 }  // namespace
 
+void check_percentile(const char* option, double percentile) {
+  if (percentile >= 1) return;
+  const std::string text = shortest_decimal(percentile);
+  throw UsageError(std::string(option) + " " + text + ": could be " +
+                   number_text(100 * percentile, std::chars_format::general, 15) + " or " + text +
+                   "%: write one of them");
+}
+
 double parse_percentile(const char* option, const std::string& text) {
-  return parse_up_to(100, "%", option, text, "a percentile above 0 and at most 100, such as 95");
+  const double percentile =
+      parse_up_to(100, "%", option, text, "a percentile above 0 and at most 100, such as 95");
+  if (!text.ends_with('%')) check_percentile(option, percentile);
+  return percentile;
 }
 
 double parse_angle(const char* option, const std::string& text) {

@@ -37,8 +37,12 @@ void put_points(const char* option, const std::string& text, Question& question)
 /// "99.5%", or a number from 0 to 1. Throws UsageError.
 double parse_share(const char* option, const std::string& text);
 
-/// "95", or "95%": above 0 and at most 100. Throws UsageError.
+/// "95", or "95%": above 0 and at most 100; a number below 1 with its percent sign. Throws
+/// UsageError.
 double parse_percentile(const char* option, const std::string& text);
+/// Throws UsageError for a number below 1 without a percent sign, which may be a share, as JSON has
+/// it, or a percentage.
+void check_percentile(const char* option, double percentile);
 /// An angle above 0 and at most 90 degrees.
 double parse_angle(const char* option, const std::string& text);
 

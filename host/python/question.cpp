@@ -188,14 +188,25 @@ void read_survey(const Arguments& given, Question& question) {
   if (*question.survey_time_s < 0) refuse_value("survey_time", kTime, given.at("survey_time"));
 }
 
+/// Reads a number of per cent, or "0.5%".
+double percentile_from(const py::object& given) {
+  constexpr const char* kExpected = "a number above 0 and at most 100, such as 95, or '0.5%'";
+  if (py::isinstance<py::str>(given)) {
+    const std::string text = text_from("percentile", kExpected, given);
+    if (!text.ends_with('%')) refuse_type("percentile", kExpected, given);
+    return parse_percentile("percentile", text);
+  }
+  const double percentile = number_from("percentile", kExpected, given);
+  if (!(percentile > 0 && percentile <= 100)) refuse_value("percentile", kExpected, given);
+  check_percentile("percentile", percentile);
+  return percentile;
+}
+
 /// Reads what metrics() asks for: both directions, and no statistics beside them.
 void read_metrics(const Arguments& given, Question& question) {
-  constexpr const char* kExpected = "a number above 0 and at most 100, such as 95";
   if (!given.knows("percentile")) return;
   MetricsOptions& metrics = question.metrics.emplace();
-  metrics.percentile = number_from("percentile", kExpected, given.at("percentile"));
-  if (!(metrics.percentile > 0 && metrics.percentile <= 100))
-    refuse_value("percentile", kExpected, given.at("percentile"));
+  metrics.percentile = percentile_from(given.at("percentile"));
   metrics.figures = checked_figures("figures", given.texts("figures"), metrics.percentile);
   constexpr const char* kAngle = "an angle above 0 and at most 90 degrees, or None";
   metrics.normals = given.number("normals", kAngle);

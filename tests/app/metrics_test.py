@@ -63,6 +63,10 @@ class Metrics(unittest.TestCase):
         for row in (r"  hd90_pooled  0\.2\d*", r"  chamfer_l2   0\.1\d*, in \[0\.1\d*, 0\.1\d*\] mm\^2", r"  recall       100 % within 1 mm"):
             self.assertTrue(any(re.match(row, line) for line in rows), f"{row}\n{text}")
 
+    def test_a_percentile_below_one_has_its_sign(self):
+        text = self.run_program("metrics", "a.obj", "b.obj", "--percentile", "0.95%").stdout
+        self.assertIn("hd0.95", text.splitlines()[0])
+
     def test_figures_that_are_asked_for_decide_the_code(self):
         words = ("metrics", "a.obj", "b.obj", "--bands", "0.2abs,0.25abs", "--effort", "2000")
         self.run_program(*words, code=3)  # so much lies at 0.25
@@ -111,6 +115,7 @@ class Metrics(unittest.TestCase):
         for words, code, said in ((("a.obj", "line.obj"), 4, "without area"), (("line.obj", "a.obj"), 4, "without area"),
                                   (("a.obj", "b.obj", "--percentile", "0"), 2, "--percentile '0': expected a percentile"),
                                   (("a.obj", "b.obj", "--percentile", "101"), 2, "above 0 and at most 100"),
+                                  (("a.obj", "b.obj", "--percentile", "0.95"), 2, "--percentile 0.95: could be 95 or 0.95%: write one of them"),
                                   (("a.obj", "b.obj", "--bands", "0.5"), 2, "--bands"), (("a.obj", "b.obj", "--max", "1abs"), 2, "--max"),
                                   (("a.obj", "b.obj", "--polygons", "any"), 2, "--polygons any"),
                                   (("a.obj", "b.obj", "--figures", "hd90"), 2, "--figures 'hd90': expected names of hausdorff, hd_p"),

@@ -88,10 +88,12 @@ class Meshes(unittest.TestCase):
         a = (SQUARE, FACES)
         line = (np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), [[0, 1, 2]])
         for wrong, options, said in ((ValueError, {"percentile": 0}, "percentile"), (ValueError, {"percentile": 101}, "percentile"),
+                                     (ValueError, {"percentile": 0.95}, "could be 95 or 0.95%"),
                                      (TypeError, {"percentile": "many"}, "percentile"), (TypeError, {"bands": 0.5}, "bands"),
                                      (TypeError, {"spacing": (1, 1, 1)}, "spacing"), (TypeError, {"affine": np.eye(4)}, "affine")):
             with self.assertRaisesRegex(wrong, said):
                 vkh.metrics(a, a, **options)
+        self.assertEqual(vkh.metrics(a, a, percentile="0.5%").percentile, 0.5)
         for pair in ((a, line), (line, a)):
             with self.assertRaisesRegex(ValueError, "without area"):
                 vkh.metrics(*pair)

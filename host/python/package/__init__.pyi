@@ -579,7 +579,7 @@ def metrics(
     a: _Mesh | npt.NDArray[Any],
     b: _Mesh | npt.NDArray[Any],
     *,
-    percentile: _Number = 95,
+    percentile: _Number | str = 95,
     bands: _Bands = (),
     spacing: npt.ArrayLike | None = None,
     affine: npt.ArrayLike | None = None,

@@ -103,7 +103,8 @@ def metrics(a, b, *, percentile=95, bands=(), spacing=None, affine=None, tol=1e-
     """Encloses the figures of two surfaces that papers report: HD95, ASSD, Chamfer distances, surface Dice, F-scores.
 
     a, b: meshes, as distance() takes them; or two masks on one grid, arrays of three dimensions that are not 0 where the
-    label is, whose surfaces are the faces of voxels between label and not-label. percentile: of hd_p. bands: distances in
+    label is, whose surfaces are the faces of voxels between label and not-label. percentile: of hd_p, a number of per cent such
+    as 95; below 1 it is a string, '0.5%'. bands: distances in
     the coordinates' unit, or strings such as '0.5%' of A's diagonal: the shares of area within each are nsd (of both),
     precision (of A), recall (of B) and f1. spacing: of masks, the sizes of a voxel, 1 by default; or affine: four rows that
     map the number of a voxel's middle to space, as NIfTI's. figures: names such as 'f1' or 'hd95' that alone are sought,
