@@ -62,10 +62,7 @@ struct Side {
 
 std::optional<Enclosure> map_range(const Finishing& at) {
   if (!at.question.map_range) return {};
-  const auto end = [&](const Length& length) {
-    return length.number == 0 ? 0 : resolved(length, "--range", at.answer).within;
-  };
-  return Enclosure{end((*at.question.map_range)[0]), end((*at.question.map_range)[1])};
+  return range_in_files(*at.question.map_range, at.answer);
 }
 
 // Adds the shares that a picture of the map names beside its colours. Its bar ends at the larger

@@ -238,6 +238,19 @@ void add_note_on_stretch(const Box& box, Answer& answer) {
 
 }  // namespace
 
+Enclosure range_in_files(const std::array<Length, 2>& range, const Answer& answer) {
+  const auto resolved = [&](const Length& length) {
+    return length.number == 0
+               ? 0
+               : in_files(length, "--range", answer.unit, answer.a_to_b.diagonal_a).within;
+  };
+  const Enclosure ends{resolved(range[0]), resolved(range[1])};
+  if (ends.lower > ends.upper)
+    throw UsageError("--range '" + range[0].requested + "," + range[1].requested +
+                     "': expected the shorter length first");
+  return ends;
+}
+
 namespace {
 
 /// Resolves limits that differ by side: the larger one is what no point may exceed.
@@ -356,6 +369,7 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
         in_files(question.tolerance, question.option("tol").c_str(), answer.unit, diagonal_a)
             .within;
   }
+  if (question.map_range) (void)range_in_files(*question.map_range, answer);
   add_note_on_stretch(box_a, answer);
   add_notes_on_fit(answer);
   add_note_on_points(question, a, b, answer);

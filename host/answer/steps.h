@@ -2,6 +2,7 @@
 // a batch and Python call them with solvers of their own.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <span>
 
@@ -70,6 +71,10 @@ double take_meshes(const Question& question, const ShapedMesh& a, const ShapedMe
                    Answer& answer);
 /// Does the same, and finds the shapes.
 double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer);
+
+/// The ends of a picture's colours, in the files' unit; a 0 has no unit. Throws UsageError that
+/// names --range for ends that are reversed, or cannot be converted.
+Enclosure range_in_files(const std::array<Length, 2>& range, const Answer& answer);
 
 /// The options for an interval as narrow as such an answer needs. `known` has its meshes.
 SolveOptions solve_options(const Question& question, const Answer& known);

@@ -43,6 +43,14 @@ std::string field_text(const Side& side, const Answer& answer, const PicturesAsk
   return asked.field->ends_with(".glb") ? to_glb(file) : to_ply(file);
 }
 
+// Whether the first length is the longer one, as far as that is known without the files.
+bool is_reversed(const std::array<Length, 2>& range) {
+  const auto& [first, second] = range;
+  if (second.number == 0) return first.number > 0;
+  return first.of == second.of &&
+         in_millimetres(first.number, first.unit) > in_millimetres(second.number, second.unit);
+}
+
 // Reads two lengths; "0" has no unit.
 std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
   if (typed.size() != 2) throw UsageError("--range: expected two lengths, as in 0,0.5mm");
@@ -51,6 +59,9 @@ std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
     range[i] = typed[i] == "0" ? Length{.requested = typed[i], .of = Length::Of::kFiles}
                                : parse_length("--range", typed[i], PlainNumber::kRefused);
   }
+  if (is_reversed(range))
+    throw UsageError("--range '" + typed[0] + "," + typed[1] +
+                     "': expected the shorter length first");
   return range;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/answer/steps.h"
 #include "host/base/system.h"
 #include "host/show/page.h"
 #include "host/show/page_words.h"
@@ -14,13 +15,7 @@ constexpr double kPixelsOfDiagonal = 0.7;  // of a picture's larger side, in the
 
 PictureOptions options_of(const PictureStyle& look, const Answer& answer) {
   PictureOptions options = look.options;
-  if (!look.range) return options;
-  const auto resolved = [&](const Length& length) {
-    return length.number == 0
-               ? 0
-               : in_files(length, "--range", answer.unit, answer.a_to_b.diagonal_a).within;
-  };
-  options.range = Enclosure{resolved((*look.range)[0]), resolved((*look.range)[1])};
+  if (look.range) options.range = range_in_files(*look.range, answer);
   return options;
 }
 
@@ -75,12 +70,12 @@ Enclosure interval_of(const Side& side) { return {side.report.lower, side.report
 
 void ask_for(const PictureStyle& look, Question& question) {
   const PictureOptions& options = look.options;
+  question.map_range = look.range;
   if (options.by == FieldBy::kFaces || question.limits.any_triangulation) {
     question.faces = true;
     return;
   }
   question.map_pixels = kPixelsOfDiagonal * std::max(options.width, options.height);
-  question.map_range = look.range;
   question.map_sides = !look.is_plain && !(look.range && (*look.range)[0].number != 0);
 }
 
