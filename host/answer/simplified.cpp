@@ -44,6 +44,32 @@ std::string nothing_words(const SimplifyAnswer& answer) {
   return "nothing written: no mesh within " + near_words(answer) + " was found; " + why;
 }
 
+/// Says why a chain has fewer levels than were asked for.
+std::string fewer_words(const SimplifyAnswer& answer) {
+  const std::string next = "level " + std::to_string(answer.files.size() + 1) + " ";
+  switch (answer.chain_end) {
+    case ChainEnd::kAll:
+      break;
+    case ChainEnd::kNoFewer:
+      return next + "would have no fewer faces";
+    case ChainEnd::kFarther:
+      return next + "is beyond the limit";
+    case ChainEnd::kUndecided:
+      return next + "is not proven to be within the limit";
+    case ChainEnd::kEnded:
+      return "the search was ended before " + next + "was made";
+  }
+  return "";
+}
+
+/// "3 levels", or "2 of 5 levels".
+std::string levels_words(const SimplifyAnswer& answer) {
+  const size_t count = answer.files.size();
+  std::string text = std::to_string(count);
+  if (count < answer.levels) text += " of " + std::to_string(answer.levels);
+  return text + (answer.levels == 1 ? " level" : " levels");
+}
+
 void print_file(std::ostream& out, const SimplifyAnswer& answer, const SimplifiedFile& file) {
   print_row(out, "written",
             printable(file.path) + ": " + grouped(file.counts.faces) + " faces, " +
@@ -110,9 +136,9 @@ std::string in_words(const SimplifyAnswer& answer) {
   const std::string all = grouped(answer.input.counts.faces) + " faces, proven within " +
                           near_words(answer) + ", " + ways_words(answer);
   if (answer.is_chain)
-    return std::to_string(answer.files.size()) + " levels, " +
-           grouped(answer.files[0].counts.faces) + " to " +
-           grouped(answer.files.back().counts.faces) + " of " + all;
+    return levels_words(answer) + ", " + grouped(answer.files[0].counts.faces) + " to " +
+           grouped(answer.files.back().counts.faces) + " of " + all +
+           (answer.files.size() < answer.levels ? "; " + fewer_words(answer) : "");
   const SimplifiedFile& file = answer.files[0];
   return grouped(file.counts.faces) + " of " + all + " (largest deviation " +
          largest_words(file.deviation, answer.unit) + ")";
@@ -121,6 +147,9 @@ std::string in_words(const SimplifyAnswer& answer) {
 void print_table(std::ostream& out, const SimplifyAnswer& answer) {
   out << in_words(answer) << '\n';
   for (const SimplifiedFile& file : answer.files) print_file(out, answer, file);
+  for (const std::string& file : answer.removed)
+    print_row(out, "removed",
+              printable(file) + ": a level of an earlier chain, which this one has not");
   if (!answer.certificate.empty()) print_row(out, "proof", printable(answer.certificate));
   if (!answer.files.empty()) {
     print_row(out, "promise",
@@ -151,6 +180,7 @@ std::string to_json(const SimplifyAnswer& answer) {
   json.add("complete", answer.complete);
   json.add("tried", answer.tried);
   json.add_text("files", files_json(answer));
+  json.add("removed", Json(answer.removed));
   json.add("certificate", text_or_null(answer.certificate));
   json.add("device", text_or_null(answer.device.name));
   json.add("driver", text_or_null(answer.device.driver));

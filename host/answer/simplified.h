@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vkhausdorff/answer.h"
+#include "vkhausdorff/levels.h"
 #include "vkhausdorff/simplify.h"
 
 namespace vkh {
@@ -31,7 +32,10 @@ struct SimplifyAnswer {
   bool one_way = false, lock_borders = false;
   bool complete = false;  ///< the search, or the chain, came to its own end
   size_t tried = 0;
-  bool is_chain = false;              ///< of levels, the finest first
+  bool is_chain = false;  ///< of levels, the finest first
+  size_t levels = 0;      ///< of a chain: how many were asked for
+  ChainEnd chain_end = ChainEnd::kAll;
+  std::vector<std::string> removed;   ///< files of an earlier chain's further levels
   std::vector<SimplifiedFile> files;  ///< none: nothing was found
   std::string certificate;            ///< its path; empty: none
   DeviceDescription device;

@@ -34,15 +34,28 @@ struct Written {
   Mesh mesh;
 };
 
-/// The names of a chain's levels: B-1.ply, B-2.ply.
+/// The name of a chain's level, from 1: B-1.ply.
+std::string path_of_level(const SimplifyAsked& asked, size_t level) {
+  const size_t stem = asked.out.size() - 4;
+  return asked.out.substr(0, stem) + "-" + std::to_string(level) + asked.out.substr(stem);
+}
+
 std::vector<std::string> paths_of(const SimplifyAsked& asked) {
   if (asked.levels == 0) return {asked.out};
   std::vector<std::string> paths;
-  const size_t stem = asked.out.size() - 4;
   for (size_t level = 1; level <= asked.levels; ++level)
-    paths.push_back(asked.out.substr(0, stem) + "-" + std::to_string(level) +
-                    asked.out.substr(stem));
+    paths.push_back(path_of_level(asked, level));
   return paths;
+}
+
+/// Refuses to write a chain beside further levels of another one, which would be taken for its own.
+void check_further_levels(const SimplifyAsked& asked) {
+  if (asked.levels == 0) return;
+  const std::string further = path_of_level(asked, asked.levels + 1);
+  std::error_code none;
+  if (std::filesystem::exists(path_of(further), none))
+    throw UsageError("--levels " + std::to_string(asked.levels) + ": '" + further +
+                     "' is a further level of another chain: remove it, or choose another --out");
 }
 
 class SimplifyCommand {
@@ -64,6 +77,7 @@ class SimplifyCommand {
   std::vector<Simplified> search();
   Written write(const Mesh& mesh, const OutputFile& place, const std::string& path);
   void prove_it(const Written& written, const OutputFile& place);
+  void remove_stale(size_t written);
   void tell();
   bool hashes() const { return outputs_.json || outputs_.json_file || !asked_.certificate.empty(); }
 
@@ -87,6 +101,7 @@ SimplifyPlaces SimplifyCommand::places() const {
       throw UsageError("two outputs would be written to '" + path + "'");
     return std::make_unique<OutputFile>(option, path, inputs);
   };
+  check_further_levels(asked_);
   places.paths = paths_of(asked_);
   for (const std::string& path : places.paths) {
     places.meshes.push_back(open("--out", path));
@@ -198,6 +213,21 @@ void SimplifyCommand::prove_it(const Written& written, const OutputFile& place) 
   answer_.certificate = asked_.certificate;
 }
 
+/// Removes the files of an earlier chain that this one was to write over and has no level for: they
+/// would be taken for its own.
+void SimplifyCommand::remove_stale(size_t written) {
+  for (size_t i = written; i < places_.paths.size(); ++i) {
+    const std::string& path = places_.paths[i];
+    std::error_code error;
+    if (!std::filesystem::exists(path_of(path), error)) continue;
+    if (!std::filesystem::remove(path_of(path), error))
+      throw OutputError({.option = "--out",
+                         .file = path,
+                         .problem = "is of an earlier chain, and cannot be removed"});
+    answer_.removed.push_back(path);
+  }
+}
+
 void SimplifyCommand::tell() {
   line_.end();
   answer_.waits.total = stop_.elapsed_s() * 1000;
@@ -222,9 +252,9 @@ void SimplifyCommand::tell(const Failure& failure) const {
 std::vector<Simplified> SimplifyCommand::search() {
   std::vector<Simplified> found;
   if (asked_.levels > 0) {
-    found =
-        simplify_levels(*session_.solver, a_,
-                        {.simplify = options(), .levels = asked_.levels, .ratio = asked_.ratio});
+    found = simplify_levels(*session_.solver, a_,
+                            {.simplify = options(), .levels = asked_.levels, .ratio = asked_.ratio},
+                            &answer_.chain_end);
     answer_.complete = !found.empty() ? found.back().complete : !stop_.is_asked();
     answer_.tried = found.size();
     return found;
@@ -241,12 +271,14 @@ ExitCode SimplifyCommand::run() {
   read();
   take_limit();
   answer_.is_chain = asked_.levels > 0;
+  answer_.levels = asked_.levels;
   const std::vector<Simplified> found = search();
   for (size_t i = 0; i < found.size(); ++i) {
     const Written written = write(found[i].mesh, *places_.meshes[i], places_.paths[i]);
     answer_.files.push_back(written.file);
     if (places_.certificate) prove_it(written, *places_.certificate);
   }
+  if (!found.empty()) remove_stale(found.size());
   tell();
   return found.empty() ? kExitNotClosed : kExitClosed;
 }

@@ -21,8 +21,8 @@ bool announce(const SimplifyOptions& options, const SimplifyProgress& progress, 
 
 }  // namespace
 
-std::vector<Simplified> simplify_levels(Solver& solver, const Mesh& a,
-                                        const LevelsOptions& options) {
+std::vector<Simplified> simplify_levels(Solver& solver, const Mesh& a, const LevelsOptions& options,
+                                        ChainEnd* end) {
   const FloatEnvironment ours;
   check_mesh(a);
   check_ratio(options.ratio);
@@ -33,11 +33,14 @@ std::vector<Simplified> simplify_levels(Solver& solver, const Mesh& a,
   size_t fewest = collapser.faces().size();
   auto target = static_cast<double>(fewest);
   bool complete = true;
+  ChainEnd why = ChainEnd::kAll;
   while (levels.size() < options.levels) {
     target *= options.ratio;
     Faces faces = collapser.collapse(collapser.faces(), {.faces = static_cast<size_t>(target)});
+    why = ChainEnd::kNoFewer;
     if (faces.empty() || faces.size() >= fewest) break;
     complete = announce(options.simplify, {levels.size(), fewest, faces.size()}, judge);
+    why = ChainEnd::kEnded;
     if (!complete) break;
     Simplified level;
     level.mesh = collapser.mesh_of(faces);
@@ -45,11 +48,16 @@ std::vector<Simplified> simplify_levels(Solver& solver, const Mesh& a,
     level.tried = 1;
     const Deviation decided = judge.decide(level.mesh);
     complete = judge.goes_on();
+    why = !complete                             ? ChainEnd::kEnded
+          : decided.verdict == Verdict::kBeyond ? ChainEnd::kFarther
+                                                : ChainEnd::kUndecided;
     if (decided.verdict != Verdict::kWithin) break;
     level.deviation = judge.measure(level.mesh, decided);
     fewest = faces.size();
     levels.push_back(std::move(level));
+    why = ChainEnd::kAll;
   }
+  if (end != nullptr) *end = why;
   if (!levels.empty()) levels.back().complete = complete;
   return levels;
 }

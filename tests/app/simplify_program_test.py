@@ -100,6 +100,27 @@ class Simplify(unittest.TestCase):
         for file in answer["files"]:
             self.check_gate("a.obj", file["path"], f"{file['upper'] * (1 + 1e-4) + 1e-6!r}abs", "--symmetric")
 
+    def test_a_chain_says_why_it_is_short_and_leaves_no_level_of_another(self):
+        words = ["simplify", "a.obj", "--out", "l.ply", "--ratio", "0.4"]
+        whole = json.loads(self.run_program(*words, "--max", "0.05abs", "--levels", "3", "--json").stdout)
+        self.assertRegex(whole["words"], r"^3 levels, [\d,]+ to \d+ of 2,048 faces, proven within 0\.05 of A, both ways$")
+        files = {path.name: path.read_bytes() for path in self.folder.iterdir()}
+        said = self.run_program(*words, "--max", "0.05abs", "--levels", "2", code=2).stderr
+        self.assertIn("--levels 2: 'l-3.ply' is a further level of another chain", said)
+        self.assertEqual({path.name: path.read_bytes() for path in self.folder.iterdir()}, files)
+        limit = f"{math.sqrt(whole['files'][0]['upper'] * whole['files'][1]['lower'])!r}abs"
+        first, *rows = self.run_program(*words, "--max", limit, "--levels", "3", "--json=l.json").stdout.splitlines()
+        self.assertRegex(first, r"^1 of 3 levels, .*; level 2 is beyond the limit$")
+        self.assertEqual([row.split()[1] for row in rows if row.startswith("  removed")], ["l-2.ply:", "l-3.ply:"])
+        self.assertEqual(json.loads((self.folder / "l.json").read_text())["removed"], ["l-2.ply", "l-3.ply"])
+        self.assertEqual(self.files(), ["a.obj", "l-1.ply", "l.json"])
+        self.assertEqual(json.loads(self.run_program(*words, "--max", limit, "--levels", "3", "--json").stdout)["removed"], [])
+
+    def test_nothing_found_removes_nothing(self):
+        (self.folder / "l-1.ply").write_text("of another")
+        self.run_program("simplify", "a.obj", "--out", "l.ply", "--levels", "3", "--max", "1e-9abs", code=3)
+        self.assertEqual((self.folder / "l-1.ply").read_text(), "of another")
+
     def test_without_time_nothing_is_written(self):
         for more in ([], ["--levels", "2"]):
             done = self.run_program("simplify", "a.obj", "--max", "1%", "--out", "b.ply", "--time", "1e-9s", *more, code=3)
