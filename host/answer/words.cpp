@@ -210,7 +210,7 @@ std::string deviation_in_words(const Answer& answer, const CertifiedInterval& wh
   if (whole.upper <= 0.5 * answer.max->limit.within)
     return "largest deviation at most " + length_up(answer, whole.upper, gap);
   return "largest deviation in " + interval_text(answer, whole) +
-         (answer.max->worst ? "" : "; --worst narrows it");
+         (answer.command == "gate" && !answer.max->worst ? "; --worst narrows it" : "");
 }
 
 /// One side of a verdict: "0.21 mm over B at (1, 2, 3) on face 12 of A, limit 0.2 mm".

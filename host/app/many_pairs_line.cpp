@@ -10,6 +10,9 @@
 namespace vkh {
 namespace {
 
+// A few pairs that need more would take most of the list's time (docs/log/measurements.md).
+constexpr uint64_t kEffortOfMetrics = 1'000'000;
+
 void add_tables(CLI::App& command, TypedMany& typed) {
   command
       .add_option("--out", typed.results,
@@ -105,7 +108,8 @@ void add_batch(CLI::App& command, TypedMany& typed) {
                    "Both directions' figures by the names that papers use, as of 'metrics'");
   add_metrics_options(command, typed.of_pairs);
   add_folder_options(command, typed.of_pairs.pictures);
-  add_effort_option(command, typed.of_pairs);
+  add_effort_option(command, typed.of_pairs,
+                    "; with --metrics " + std::to_string(kEffortOfMetrics));
   add_max_distance_option(command, typed.of_pairs, "pictures and pages");
   command.add_option("--device", typed.of_pairs.device,
                      "Devices, between commas, as 'doctor' names them; all: every GPU [the best]");
@@ -156,8 +160,6 @@ CommandLine batch_line(const TypedMany& typed, const Words& words) {
   line.question = question_of(of_pairs, words, "batch");
   line.question.tolerance_is_typed = !typed.of_pairs.tolerance.empty();
   line.question.statistics = line.question.is_signed;  // a line of results has figures
-  // A few pairs that need more would take most of the list's time (docs/log/measurements.md).
-  constexpr uint64_t kEffortOfMetrics = 1'000'000;
   if (line.question.metrics && !line.question.effort) line.question.effort = kEffortOfMetrics;
   BatchAsked& batch = line.batch;
   put_source(typed, batch);

@@ -284,13 +284,13 @@ void add_max_distance_option(CLI::App& command, Typed& typed, const char* of) {
       ->type_name("LENGTH");
 }
 
-void add_effort_option(CLI::App& command, Typed& typed) {
+void add_effort_option(CLI::App& command, Typed& typed, const std::string& otherwise) {
   command
       .add_option("--effort", typed.effort,
                   "Cells to bound at most for figures and faces' bounds, besides each face once; "
                   "the same number gives the same bits on a device [" +
                       std::to_string(default_effort(false)) + " on a GPU, " +
-                      std::to_string(default_effort(true)) + " on a CPU]")
+                      std::to_string(default_effort(true)) + " on a CPU" + otherwise + "]")
       ->type_name("N");
 }
 

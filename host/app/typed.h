@@ -54,7 +54,8 @@ void add_engine_options(CLI::App& command, Typed& typed);  ///< memory, waves, s
 void add_search_options(CLI::App& command, Typed& typed);  ///< device, time and engine options
 void add_survey_options(CLI::App& command, Typed& typed);
 void add_signed_option(CLI::App& command, Typed& typed, const char* figures);
-void add_effort_option(CLI::App& command, Typed& typed);
+/// `otherwise`: what a command has besides the numbers for devices.
+void add_effort_option(CLI::App& command, Typed& typed, const std::string& otherwise = "");
 /// `of`: what it leaves out of.
 void add_max_distance_option(CLI::App& command, Typed& typed, const char* of);
 void add_output_options(CLI::App& command, Typed& typed);

@@ -302,6 +302,21 @@ TEST_CASE("a record of an answer is that of its line") {
   check_same(record_of(name, failure, answer), read_record(to_record(name, failure, answer)));
 }
 
+TEST_CASE("a PASS proposes --worst where there is such an option") {
+  Answer answer;
+  answer.a_to_b.lower = 0.1;
+  answer.a_to_b.upper = 0.4;
+  answer.a_to_b.diagonal_a = 1;
+  answer.max = Asked{.length = parse_length("max", "0.5abs", PlainNumber::kRefused),
+                     .limit = {.within = 0.5, .beyond = 0.5}};
+  for (const char* command : {"gate", "batch"}) {
+    answer.command = command;
+    const std::string words = in_words(answer);
+    CHECK_MESSAGE(words.find("(largest deviation in [") != std::string::npos, words);
+    CHECK((words.find("--worst") != std::string::npos) == (answer.command == "gate"));
+  }
+}
+
 TEST_CASE("a line that was changed is refused") {
   Answer answer;
   answer.a_to_b.lower = 0.1;
