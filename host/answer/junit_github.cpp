@@ -100,11 +100,14 @@ std::vector<std::string> server_notes_of(const Answer& answer) {
   return server_notes(notes_of(answer), answer.inputs[0].notes, answer.inputs[1].notes);
 }
 
-std::string pair_name(const Answer& answer) {
-  const char* arrow = answer.b_to_a ? " <-> " : " -> ";
-  std::string name = answer.inputs[0].path + arrow + answer.inputs[1].path;
-  if (answer.max) name += " within " + answer.max->length.requested;
-  return name;
+std::string max_text(const Asked& max) {
+  return max.sides ? "+" + max.sides->over.requested + ",-" + max.sides->under.requested
+                   : max.length.requested;
+}
+
+std::string case_name(const Answer& answer) {
+  return pair_name(answer.inputs[0].path, answer.inputs[1].path, answer.b_to_a.has_value(),
+                   answer.max ? max_text(*answer.max) : "");
 }
 
 std::string seconds_text(double seconds) {
@@ -126,7 +129,7 @@ std::string case_xml(const JunitCase& one) {
 
 JunitCase case_of(const Answer& answer) {
   JunitCase one{.command = answer.command,
-                .name = pair_name(answer),
+                .name = case_name(answer),
                 .words = in_words(answer),
                 .seconds = answer.waits.total / 1000};
   one.notes = server_notes_of(answer);
@@ -183,9 +186,14 @@ std::string to_junit(const Answer& answer) {
   return to_junit({&one, 1}, answer.host, answer.started);
 }
 
-std::string to_junit(const Failure& failure) {
+std::string pair_name(const std::string& a, const std::string& b, bool both,
+                      const std::string& max) {
+  return a + (both ? " <-> " : " -> ") + b + (max.empty() ? "" : " within " + max);
+}
+
+std::string to_junit(const Failure& failure, const std::string& name) {
   const JunitCase one{.command = "gate",
-                      .name = failure.file.empty() ? "vkhausdorff" : failure.file,
+                      .name = name,
                       .words = failure.message,
                       .element = "error",
                       .type = "no answer"};

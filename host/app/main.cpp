@@ -81,12 +81,20 @@ struct Places {
   Pictures pictures;
 };
 
+std::string case_name_of(const Question& question) {
+  std::string max;
+  if (question.max) max = question.max->requested;
+  if (question.max_sides)
+    max = "+" + question.max_sides->over.requested + ",-" + question.max_sides->under.requested;
+  return pair_name(question.file_a, question.file_b, question.symmetric, max);
+}
+
 Places places_of(const CommandLine& line) {
   check_distinct(line.outputs);
   const std::vector<std::string> inputs = {line.question.file_a, line.question.file_b,
                                            line.question.face_max_a, line.question.face_max_b,
                                            line.question.transform_file};
-  return {.destinations = Destinations(line.outputs, inputs),
+  return {.destinations = Destinations(line.outputs, inputs, case_name_of(line.question)),
           .pictures = Pictures(line.outputs.pictures, line.question.symmetric, inputs)};
 }
 

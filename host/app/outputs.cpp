@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "host/answer/exit_code.h"
+#include "host/answer/options.h"
 #include "host/answer/simplified.h"
 #include "host/base/system.h"
 #include "vkhausdorff/error.h"
@@ -38,6 +39,33 @@ Outputs outputs_in(const Words& words, Words& others) {
   return outputs;
 }
 
+/// The limit as a good run names it, where it can be read.
+std::string max_text(const std::string& typed) {
+  try {
+    const std::optional<SidedMax> sides = parse_sided("--max", typed);
+    return sides ? "+" + sides->over.requested + ",-" + sides->under.requested : typed;
+  } catch (const UsageError&) {
+    return typed;
+  }
+}
+
+/// Names the test case of words that may be misspelt, as a good run names it if the files come
+/// first.
+std::string name_in(const Words& words) {
+  constexpr const char* kUnknown = "vkhausdorff";
+  const bool has_files =
+      words.size() > 2 && !words[1].starts_with("--") && !words[2].starts_with("--");
+  if (!has_files) return kUnknown;
+  std::string max;
+  bool both = false;
+  for (size_t i = 3; i < words.size(); ++i) {
+    both = both || words[i] == "--symmetric";
+    if (words[i].starts_with("--max=")) max = words[i].substr(6);
+    if (words[i] == "--max" && i + 1 < words.size()) max = words[i + 1];
+  }
+  return pair_name(words[1], words[2], both, max_text(max));
+}
+
 /// The matrix by which A was placed, as a file has it.
 std::string placed_text(const Answer& answer) {
   if (!answer.placed || !answer.placed->by.matrix)
@@ -47,8 +75,9 @@ std::string placed_text(const Answer& answer) {
 
 }  // namespace
 
-Destinations::Destinations(const Outputs& outputs, const std::vector<std::string>& inputs)
-    : outputs_(outputs) {
+Destinations::Destinations(const Outputs& outputs, const std::vector<std::string>& inputs,
+                           std::string name)
+    : outputs_(outputs), name_(std::move(name)) {
   std::vector<std::string> taken;
   for (const std::string& input : inputs) {
     if (!input.empty()) taken.push_back(input);
@@ -89,7 +118,7 @@ void Destinations::write(const Failure& failure, const std::string& json) {
   if (outputs_.json) std::cout << json << std::endl;
   try {
     if (json_) json_->write(json + '\n');
-    if (junit_) junit_->write(to_junit(failure));
+    if (junit_) junit_->write(to_junit(failure, name_));
   } catch (const OutputError&) {
   }
 }
@@ -119,7 +148,7 @@ void tell_misuse(const Words& words, const UsageError& error) {
   }
   const Failure failure = failure_of(error);
   try {
-    Destinations(outputs, others)
+    Destinations(outputs, others, name_in(words))
         .write(failure, words[0] == "simplify" ? to_simplify_json(failure) : to_json(failure));
   } catch (const UsageError&) {  // `error` is reported
   }

@@ -14,8 +14,9 @@ namespace vkh {
 /// Destinations that are checked before the run and written after it.
 class Destinations {
  public:
-  /// Throws UsageError if a file cannot be written, or is one of `inputs`.
-  Destinations(const Outputs& outputs, const std::vector<std::string>& inputs);
+  /// Throws UsageError if a file cannot be written, or is one of `inputs`. `name`: of the test
+  /// case.
+  Destinations(const Outputs& outputs, const std::vector<std::string>& inputs, std::string name);
 
   /// Prints the answer first, whatever becomes of a file: a reader of standard output may close it
   /// early, and that ends the program. Returns what could not be written, and why; empty if
@@ -29,6 +30,7 @@ class Destinations {
 
  private:
   Outputs outputs_;
+  std::string name_;
   std::optional<OutputFile> json_, junit_, transform_;
 };
 

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "host/base/decimal.h"
+#include "host/base/reject.h"
 #include "host/mesh/make_mesh.h"
 #include "host/survey/sets.h"
 #include "vkhausdorff/error.h"
@@ -218,11 +219,11 @@ void refuse_conflicts(const Mesh& mesh) {
   const std::optional<EdgeConflict> first = Shells::edges_of(mesh).first;
   if (!first) return;
   const auto face = [&](size_t i) { return std::to_string(mesh.file_faces.of(first->faces[i])); };
-  throw UsageError(mesh.name + ": faces " + face(0) + " and " + face(1) +
-                   " are oriented against each other at the edge from " +
-                   in_brackets(mesh.vertices[first->vertices[0]]) + " to " +
-                   in_brackets(mesh.vertices[first->vertices[1]]) +
-                   ": there are no sides of it; orient its faces alike first");
+  reject(mesh.name, "faces " + face(0) + " and " + face(1),
+         "oriented against each other at the edge from " +
+             in_brackets(mesh.vertices[first->vertices[0]]) + " to " +
+             in_brackets(mesh.vertices[first->vertices[1]]) + ": there are no sides of it",
+         "faces that are oriented alike");
 }
 
 void Shells::set_positions() {

@@ -14,7 +14,7 @@
 
 namespace vkh {
 
-/// Throws UsageError that names the edge if two faces of the mesh use one in the same direction,
+/// Throws InputError that names the edge if two faces of the mesh use one in the same direction,
 /// and no other faces use it.
 void refuse_conflicts(const Mesh& mesh);
 

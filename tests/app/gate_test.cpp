@@ -126,8 +126,8 @@ TEST_CASE("faces of B that are against each other have no sides") {
   const std::string b =
       write_file("against.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\n");
   const Outcome refused = run({"distance", square_a(), b, "--signed"});
-  CHECK(refused.exit_code == 2);
-  CHECK(refused.err.find("faces 0 and 1 are oriented against each other at the edge from (") !=
+  CHECK(refused.exit_code == 4);
+  CHECK(refused.err.find("faces 0 and 1: oriented against each other at the edge from (") !=
         std::string::npos);
   CHECK(run({"distance", square_a(), b}).exit_code == 0);
 }

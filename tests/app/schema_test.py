@@ -4,9 +4,11 @@ readers that are not ours.
 usage: schema_test.py PROGRAM SOURCE. Exit code 77: neither jsonschema nor junitparser is here.
 """
 
+import html
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -89,6 +91,21 @@ class Outputs(unittest.TestCase):
         for word in ("--json=b.obj", "--junit=b.obj"):  # which is B: nothing is written over it
             self.assertEqual(run("gate", "a.obj", "b.obj", "--mx=1abs", word, folder=self.folder).returncode, 2)
             self.assertEqual((self.folder / "b.obj").read_text(), before)
+
+    def test_a_case_has_one_name_whatever_its_outcome(self):
+        (self.folder / "against.obj").write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 4 3\n")
+        pair, sided = ("a.obj", "b.obj"), ("--max=-0.3abs,+0.2abs",)
+        for words, code, name in (((*pair, "--max", "9abs"), 0, "a.obj -> b.obj within 9abs"), ((*pair, "--max", "9abs", "--device", "none such"), 5, "a.obj -> b.obj within 9abs"),
+                                  ((*pair, "--max=9abs", "--symmetric"), 0, "a.obj <-> b.obj within 9abs"), ((*pair, "--symmetric", "--max", "9abs", "--memry"), 2, "a.obj <-> b.obj within 9abs"),
+                                  ((*pair, *sided), None, "a.obj -> b.obj within +0.2abs,-0.3abs"), ((*pair, *sided, "--memry"), 2, "a.obj -> b.obj within +0.2abs,-0.3abs"),
+                                  (("a.obj", "against.obj", *sided), 4, "a.obj -> against.obj within +0.2abs,-0.3abs"),
+                                  (("missing.obj", "b.obj", "--max", "9abs"), 4, "missing.obj -> b.obj within 9abs")):
+            with self.subTest(words):
+                done = run("gate", *words, "--junit", "name.xml", "--json=name.json", folder=self.folder)
+                self.assertIn(done.returncode, (0, 1, 3) if code is None else (code,), done.stderr)
+                self.assertEqual(html.unescape(re.search('<testcase [^>]* name="([^"]*)"', (self.folder / "name.xml").read_text())[1]), name)
+                if code == 4:
+                    self.assertEqual(json.loads((self.folder / "name.json").read_text())["error"]["file"], words["against.obj" in words])
 
     @unittest.skipIf(junitparser is None, "no junitparser here")
     def test_every_suite_is_read_by_another(self):

@@ -394,7 +394,7 @@ TEST_CASE("an edge of two faces in one direction is refused, by its faces") {
   REQUIRE(sides.shells().edges().first);
   const auto [first, second] = sides.shells().edges().first->faces;
   CHECK((first == 5 || second == 5));
-  CHECK_THROWS_AS(refuse_conflicts(b), UsageError);
+  CHECK_THROWS_AS(refuse_conflicts(b), InputError);
 }
 
 // A's coordinate of 2^-1074 is lost where both meshes are scaled by 2^-500.

@@ -185,7 +185,7 @@ TEST_CASE("faces against each other are refused") {
   survey.is_signed = true;
   SolveOptions options;
   options.survey = survey_with(survey, result);
-  CHECK_THROWS_AS(solver().distance(square_patch(2, 0.1), b, options), UsageError);
+  CHECK_THROWS_AS(solver().distance(square_patch(2, 0.1), b, options), InputError);
 }
 
 // The witness is a corner of a cell: its distance, by hand, is at least what is told of it.

@@ -217,7 +217,11 @@ struct JunitCase {
 std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
                      const std::string& started);
 std::string to_junit(const Answer& answer);
-std::string to_junit(const Failure& failure);
+/// `name`: pair_name(), so that a case has one name whatever its outcome.
+std::string to_junit(const Failure& failure, const std::string& name);
+/// "a.stl -> b.stl within 0.1mm". `max`: as it was typed, or empty.
+std::string pair_name(const std::string& a, const std::string& b, bool both,
+                      const std::string& max);
 
 /// A remark that GitHub shows beside a file.
 struct GithubAnnotation {

@@ -138,8 +138,9 @@ SurveyResult survey_mesh(Solver& solver, const PairView& pair, const SurveyOptio
                          const SolveOptions& run = {});
 
 /// Sets options.survey, which writes `result` when the run has ended. Both must outlive it. The
-/// survey throws UsageError for a percentile outside [0, 1], for statistics or sides of meshes of
-/// any triangulation, and for sides of a B with two faces that use an edge in one direction.
+/// survey throws UsageError for a percentile outside [0, 1] and for statistics or sides of meshes
+/// of any triangulation, and InputError for sides of a B with two faces that use an edge in one
+/// direction.
 Survey survey_with(const SurveyOptions& options, SurveyResult& result);
 
 }  // namespace vkh
