@@ -45,17 +45,24 @@ Input input_of(const Mesh& mesh) {
           .notes = mesh.notes};
 }
 
-/// The unit of a mesh: its file's own, else the one in the request; empty if it is unknown.
+/// The unit of a mesh: its file's own, else the one in the request; empty if it is unknown. A unit
+/// for one of both files may not contradict it.
 std::string unit_of(const Question& question, const Mesh& mesh, bool is_b) {
   if (mesh.placed) return mesh.unit;
   const std::string& own = is_b ? question.unit_b : question.unit_a;
-  const std::string& requested = own.empty() ? question.unit : own;
-  if (!mesh.unit.empty() && !requested.empty() && mesh.unit != requested)
-    throw UsageError(question.option(own.empty() ? "unit"
-                                     : is_b      ? "unit-b"
-                                                 : "unit-a") +
-                     " " + requested + ": " + mesh.name + " is in " + mesh.unit);
-  return mesh.unit.empty() ? requested : mesh.unit;
+  if (!mesh.unit.empty() && !own.empty() && mesh.unit != own)
+    throw UsageError(question.option(is_b ? "unit-b" : "unit-a") + " " + own + ": " + mesh.name +
+                     " is in " + mesh.unit);
+  if (!mesh.unit.empty()) return mesh.unit;
+  return own.empty() ? question.unit : own;
+}
+
+/// Refuses a unit for files without one where both have another.
+void check_unit_is_used(const Question& question, const Mesh& a, const Mesh& b) {
+  if (question.unit.empty() || a.placed || a.unit.empty() || b.unit.empty()) return;
+  if (a.unit == question.unit || b.unit == question.unit) return;
+  throw UsageError(question.option("unit") + " " + question.unit + ": " + a.name + " is in " +
+                   a.unit + ", and " + b.name + " in " + b.unit);
 }
 
 struct Units {
@@ -64,6 +71,7 @@ struct Units {
 };
 
 Units units_of(const Question& question, const Mesh& a, const Mesh& b) {
+  check_unit_is_used(question, a, b);
   return {unit_of(question, a, false), unit_of(question, b, true)};
 }
 

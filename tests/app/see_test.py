@@ -133,6 +133,12 @@ class See(unittest.TestCase):
         self.assertEqual(tree["meshes"][0]["extras"]["unit"], "mm")
         self.assertNotEqual(faces[0][7:10], faces[1][7:10])
 
+    def test_a_unit_is_of_the_files_that_name_none(self):
+        self.run_program("distance", "roof.obj", "plane.obj", "--unit", "m", "--field", "out.glb")
+        self.assertIn("converted from in to m", self.run_program("distance", "roof.obj", "out.glb", "--unit", "in").stdout)
+        for words in (("out.glb", "out.glb", "--unit", "in"), ("roof.obj", "out.glb", "--unit-b", "in"), ("out.glb", "roof.obj", "--unit-a", "in")):
+            self.assertIn(f"{words[2]} in: out.glb is in m", self.run_program("distance", *words, code=2).stderr)
+
     def test_faces_of_a_file_with_polygons_keep_their_numbers(self):
         (self.folder / "mixed.obj").write_text(ROOF.split("f 1 2 3")[0] + "v 0 1 0.25\nf 1 2 3 5\nf 1 2\nf 2 3\nf 1 3 4\n")
         self.run_program("distance", "mixed.obj", "plane.obj", "--field", "out.ply", "--report", "out.html")
