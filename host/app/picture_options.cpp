@@ -51,6 +51,15 @@ bool is_reversed(const std::array<Length, 2>& range) {
          in_millimetres(first.number, first.unit) > in_millimetres(second.number, second.unit);
 }
 
+// A reader takes a GLB's coordinates as metres.
+void note_on_metres(const Answer& answer, const std::string& path) {
+  if (!path.ends_with(".glb") || !answer.unit.empty()) return;
+  std::fprintf(stderr,
+               "vkhausdorff: note: %s: glTF is in metres; what the files are in is not known, so "
+               "that coordinates are as they are there: say it by --unit\n",
+               printable(path).c_str());
+}
+
 // Reads two lengths; "0" has no unit.
 std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
   if (typed.size() != 2) throw UsageError("--range: expected two lengths, as in 0,0.5mm");
@@ -246,6 +255,7 @@ std::string Pictures::write(const Answered& done) const {
       const std::optional<OutputFile>& field = side.back ? field_.back : field_.there;
       const std::optional<OutputFile>& image = side.back ? image_.back : image_.there;
       if (field) field->write(field_text(side, done.answer, asked_));
+      if (field && !side.back) note_on_metres(done.answer, *asked_.field);
       if (image) image->write(picture_of(side, done.answer, asked_.look, device));
     }
     if (report_)

@@ -11,6 +11,7 @@
 #include "host/write/bytes.h"
 #include "host/write/rounded.h"
 #include "vkhausdorff/error.h"
+#include "vkhausdorff/length.h"
 
 namespace vkh {
 namespace {
@@ -93,7 +94,16 @@ void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double 
   }
 }
 
-// Writes coordinates as they are: glTF has metres and y up, and a mesh's file may name neither.
+// Turns coordinates into metres by a node's scale, which keeps their bits, where the unit is known.
+// glTF has y up, which no mesh's file names: axes stay.
+Json nodes_of(const FieldFile& file, const glm::dvec3& middle) {
+  const Json mesh = {{"mesh", 0}, {"translation", {middle.x, middle.y, middle.z}}};
+  if (file.unit.empty() || file.unit == "m") return Json::array({mesh});
+  const UnitRatio ratio = unit_ratio(file.unit, "m");
+  const double scale = ratio.numerator / ratio.denominator;
+  return Json::array({{{"children", {1}}, {"scale", {scale, scale, scale}}}, mesh});
+}
+
 Json document(const FieldFile& file, const CornerArrays& corners, const glm::dvec3& middle,
               Binary& binary) {
   const size_t count = corners.lower.size();
@@ -118,7 +128,7 @@ Json document(const FieldFile& file, const CornerArrays& corners, const glm::dve
   return {{"asset", {{"version", "2.0"}, {"generator", "VkHausdorff"}}},
           {"scene", 0},
           {"scenes", {{{"nodes", {0}}}}},
-          {"nodes", {{{"mesh", 0}, {"translation", {middle.x, middle.y, middle.z}}}}},
+          {"nodes", nodes_of(file, middle)},
           {"materials",
            {{{"doubleSided", true},
              {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}}}},

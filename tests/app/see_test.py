@@ -127,11 +127,24 @@ class See(unittest.TestCase):
         self.assertEqual([u for (u,) in named["_LOWER"]], [f[4] for f in faces for _ in range(3)])
         self.assertEqual({c[3] for c in named["COLOR_0"]}, {65535})
         self.assertEqual([tuple(map(srgb, c[:3])) for c in named["COLOR_0"]], [f[7:10] for f in faces for _ in range(3)])
-        shift = tree["nodes"][0]["translation"]
+        scaled, moved = tree["nodes"]
+        self.assertEqual((scaled, tree["scenes"][0]["nodes"]), ({"children": [1], "scale": [0.001, 0.001, 0.001]}, [0]))
+        shift = moved["translation"]
         placed = [tuple(x + s for x, s in zip(p, shift)) for p in named["POSITION"]]
         self.assertEqual(placed, [vertices[v][:3] for f in faces for v in f[1:4]])
         self.assertEqual(tree["meshes"][0]["extras"]["unit"], "mm")
         self.assertNotEqual(faces[0][7:10], faces[1][7:10])
+
+    def test_a_glb_is_in_metres(self):
+        for unit, size in (("mm", "1 x 1 x 0.25 mm"), ("in", "1 x 1 x 0.25 in"), ("m", "1 x 1 x 0.25 m")):
+            with self.subTest(unit):
+                said = self.run_program("distance", "roof.obj", "plane.obj", "--unit", unit, "--field", "out.glb").stderr
+                self.assertEqual(said, "")
+                told = self.run_program("distance", "out.glb", "roof.obj", "--unit", unit).stdout
+                self.assertIn(f"A {size} (out.glb), B {size} (roof.obj)", told)
+        said = self.run_program("distance", "roof.obj", "plane.obj", "--field", "out.glb").stderr
+        self.assertIn("note: out.glb: glTF is in metres", said)
+        self.assertEqual([sorted(node) for node in glb(self.folder / "out.glb")[0]["nodes"]], [["mesh", "translation"]])
 
     def test_a_unit_is_of_the_files_that_name_none(self):
         self.run_program("distance", "roof.obj", "plane.obj", "--unit", "m", "--field", "out.glb")
