@@ -176,6 +176,17 @@ struct Program {
     return names;
   }
 
+  /// The commands that have an option of this name.
+  Words commands_with(const std::string& option) const {
+    Words names;
+    for (const CLI::App* command : app.get_subcommands({})) {
+      const Words known = option_names(*command);
+      if (std::find(known.begin(), known.end(), option) != known.end())
+        names.push_back(command->get_name());
+    }
+    return names;
+  }
+
   Words command_names() const {
     Words names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
@@ -235,6 +246,8 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
     const std::string name = word.substr(0, word.find('='));
     const bool is_known = std::find(options.begin(), options.end(), name) != options.end();
     if (!name.starts_with("--") || name == "--" || is_known) continue;
+    if (const Words others = program.commands_with(name); !others.empty())
+      return "unknown option '" + name + "': it is of " + listed(others, " and ");
     const std::string meant = closest_name(name, options);
     return "unknown option '" + name + "'" +
            (meant.empty() ? see_help(command) : ": did you mean " + meant + "?");

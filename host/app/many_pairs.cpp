@@ -76,6 +76,8 @@ PairList list_of(const BatchAsked& asked, const Question& question) {
 
 /// Refuses a file that is named twice: it would be read while it is written.
 void check_outputs(const std::string& results, const TablesAsked& tables) {
+  if (results == "-")
+    throw UsageError("--out '-': expected the name of a file; one that is called so is ./-");
   std::set<std::filesystem::path> places{place_of(results)};
   for (const auto& other : {tables.csv, tables.junit}) {
     if (other && !places.insert(place_of(*other)).second)

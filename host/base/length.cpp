@@ -139,9 +139,9 @@ Limit in_files(const Length& length, const char* option, const std::string& file
     if (file == nullptr) {
       throw UsageError(
           std::string(option) + " '" + length.requested +
-          "': the files do not say what they are in; say so with --unit (Question::unit), or give "
-          "the "
-          "length in their own unit, as " +
+          "': the files do not say what they are in; say so with " +
+          (std::string_view(option).starts_with("--") ? "--unit" : "unit_a and unit_b") +
+          ", or give the length in their own unit, as " +
           length.requested.substr(0, length.requested.find_first_not_of("0123456789.eE+- ")) +
           "abs");
     }

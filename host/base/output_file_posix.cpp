@@ -85,6 +85,7 @@ void check_beside(const std::string& beside, const OutputFile::Check& check) {
 OutputFile::OutputFile(std::string option, std::string path, const std::vector<std::string>& inputs)
     : option_(std::move(option)), path_(std::move(path)) {
   if (path_.empty()) refuse("expected the name of a file");
+  if (path_ == "-") refuse("expected the name of a file; one that is called so is ./-");
   const std::optional<struct stat> there = status_of(path_);
   for (const std::string& input : inputs) {
     const std::optional<struct stat> read = status_of(input);

@@ -127,6 +127,7 @@ void check_beside(const fs::path& beside, const OutputFile::Check& check) {
 OutputFile::OutputFile(std::string option, std::string path, const std::vector<std::string>& inputs)
     : option_(std::move(option)), path_(std::move(path)) {
   if (path_.empty()) refuse("expected the name of a file");
+  if (path_ == "-") refuse("expected the name of a file; one that is called so is ./-");
   if (is_pipe(path_)) {
     open_special(FILE_TYPE_PIPE);
     return;

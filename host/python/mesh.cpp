@@ -16,6 +16,7 @@
 #include "host/python/question.h"
 #include "host/python/result.h"
 #include "host/python/session.h"
+#include "host/read/file_mesh_builder.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/mesh_io.h"
 
@@ -34,6 +35,19 @@ uint64_t file_size(const std::string& file) {
   return stat(file.c_str(), &about) == 0 ? static_cast<uint64_t>(about.st_size) : 0;
 }
 
+// The same error with Python's words for the program's options.
+InputError in_python(const InputError& error) {
+  constexpr std::string_view kOption = "--points";
+  ErrorParts parts = error.parts();
+  if (parts.expected == kAMesh)
+    parts.expected =
+        "a mesh of triangles (STL, OBJ, PLY); points=True measures points, 'b' those of the second "
+        "mesh, 'both' those of both";
+  if (const size_t at = parts.expected.find(kOption); at != std::string::npos)
+    parts.expected.replace(at, kOption.size(), "points=True");
+  return InputError(parts);
+}
+
 // The system's reason why a file could not be opened; 0: it can be.
 int fault_of(const std::string& file) {
   struct stat about {};
@@ -47,10 +61,10 @@ Mesh read_file(const std::string& file, ReadLimits limits) {
   limits.threads = file_size(file) < kLarge ? 1 : 0;
   try {
     return read_mesh(path_of(file), limits);
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
     const int code = fault_of(file);
     if (code != 0) throw FileFault{code, file};
-    throw;
+    throw in_python(error);
   }
 }
 
@@ -506,15 +520,36 @@ MeshPointer mesh_of(const char* argument, const std::string& name, const py::obj
   return std::make_shared<const Mesh>(mesh_from(name, arrays[0], arrays[1]));
 }
 
+namespace {
+
+// Refuses points without the word for them, beside a mesh: 'vb' would be missing otherwise.
+void refuse_bare_points(const py::args& positional, const std::vector<const char*>& apart) {
+  const auto is_whole = [](const py::object& object) {
+    return py::isinstance<FileMesh>(object) || is_path(object) || is_pair(object);
+  };
+  if (positional.size() != 2 || apart.size() != 4) return;
+  for (size_t i = 0; i < 2; ++i) {
+    const py::object given = positional[i], other = positional[1 - i];
+    if (!py::isinstance<py::array>(given) || !is_whole(other)) continue;
+    throw py::type_error(std::string(i == 0 ? "a" : "b") +
+                         ": expected a mesh, such as (vertices, faces); of points alone " +
+                         (i == 0 ? "points=True" : "points='b'") + " says so");
+  }
+}
+
+}  // namespace
+
 py::args spread(const py::args& positional, const py::kwargs& named,
                 const std::vector<const char*>& apart) {
   bool are_meshes = positional.size() == apart.size() / 2;
   for (size_t i = 0; i < apart.size(); ++i) are_meshes = are_meshes && !named.contains(apart[i]);
+  const bool may_be_meshes = are_meshes;
   const PointSides sides =
       named.contains("points") ? point_sides(py::object(named["points"])) : PointSides();
   const auto is_points = [&](size_t i) { return i == 0 ? sides.a : sides.b; };
   for (size_t i = 0; are_meshes && i < positional.size(); ++i)
     are_meshes = is_points(i) || is_mesh(positional[i]);
+  if (may_be_meshes && !are_meshes) refuse_bare_points(positional, apart);
   if (!are_meshes) return positional;
   py::list values;
   for (size_t i = 0; i < positional.size(); ++i) {

@@ -99,6 +99,11 @@ TEST_CASE("usage errors: exit code 2 and one line") {
   check_refused(pair + Words{"--tolerance", "0.1"}, 2, "'--tolerance': did you mean --tol?");
   check_refused(pair + Words{"--symetric"}, 2, "did you mean --symmetric?");
   check_refused({"gaet", "a", "b"}, 2, "did you mean gate?");
+  check_refused(pair + Words{"--max", "0.1mm"}, 2,
+                "unknown option '--max': it is of gate, batch and simplify");
+  check_refused(pair + Words{"--junit", "j.xml"}, 2,
+                "unknown option '--junit': it is of gate, batch and merge");
+  check_refused(pair + Words{"--json=-"}, 2, "--json '-': expected the name of a file");
   for (const char* tol : {"0", "-1", "nan", "inf", "1e-6km", "abs", "%", "1,5", "1e-400", ""}) {
     check_refused(pair + Words{"--tol", tol}, 2, "--tol");
   }

@@ -209,7 +209,7 @@ TEST_CASE("units: what the files are in, and what a length is in") {
   CHECK(gate("6mm", {"--unit", "in"}).exit_code == 1);
   const Outcome unknown = gate("6mm");
   CHECK(unknown.exit_code == 2);
-  CHECK(unknown.err.find("--unit") != std::string::npos);
+  CHECK(unknown.err.find("say so with --unit, or give the length") != std::string::npos);
   CHECK(gate("6mm", {"--unit", "miles"}).exit_code == 2);
   CHECK(gate("6mm", {"--unit", "inch"}).err.find("--unit 'inch': did you mean in?") !=
         std::string::npos);

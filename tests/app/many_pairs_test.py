@@ -63,7 +63,7 @@ class ManyPairs(unittest.TestCase):
         self.write_list()
         (self.folder / "one.jsonl").write_text('{"id": "x", "a": "0.obj", "b": "1.obj"}')  # which adding lines would cut off
         before = {path: path.read_bytes() for path in self.folder.iterdir()}
-        for words in (("--out", "0.obj"), ("--out", "list.csv"), ("--out", "./list.csv", "--resume"), ("--out", "."), ("--out", "none/out.jsonl"),
+        for words in (("--out", "0.obj"), ("--out", "-"), ("--out", "list.csv"), ("--out", "./list.csv", "--resume"), ("--out", "."), ("--out", "none/out.jsonl"),
                       ("--out", "/dev/null"), ("--out", "out.jsonl", "--csv", "./out.jsonl"), ("--out", "out.jsonl", "--csv", "t", "--junit", "./t"),
                       ("--out", "out.jsonl", "--csv", "0.obj"), ("--out", "out.jsonl", "--junit", "list.csv")):
             with self.subTest(words):

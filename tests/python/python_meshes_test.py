@@ -103,8 +103,16 @@ class Meshes(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder) / "scan.xyz"
             file.write_text("".join("{!r} {!r} {!r}\n".format(*p) for p in points.tolist()))
-            with self.assertRaisesRegex(ValueError, "points, no faces"):
+            with self.assertRaisesRegex(ValueError, "points, no faces.*; points=True measures points, 'b' those of the second mesh"):
                 vkh.read(file)
+            with self.assertRaisesRegex(ValueError, "points=True measures points"):
+                vkh.distance(file, b)
+            with self.assertRaisesRegex(TypeError, "^a: expected a mesh, such as .vertices, faces.; of points alone points=True says so$"):
+                vkh.distance(points, b)
+            with self.assertRaisesRegex(TypeError, "^b: expected a mesh.*points='b' says so$"):
+                vkh.distance(b, points)
+            with self.assertRaisesRegex(TypeError, "'vb' is missing"):
+                vkh.distance(points, b[1])
             clouds = vkh.read(file, points=True), vkh.read(points, points=True)
             by_name = next(vkh.distances([(file, b)], points="a", tol=1e-6))
             self.assertIsInstance(next(vkh.distances([(file, b)])).error, ValueError)
