@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <ostream>
@@ -302,7 +303,7 @@ void print_interval(std::ostream& out, const Answer& answer) {
   print_row(out, is_sought ? "interval" : "distance",
             enclosed(answer, whole.lower, whole.upper, whole.status) +
                 (is_sought || !has_worst ? "" : "; --worst goes on to the farthest point"));
-  if (!is_sought) return;
+  if (!is_sought || !std::isfinite(whole.upper)) return;
   print_row(out, "known to",
             decimal(width_up(whole.lower, whole.upper), 3, Rounding::kUp) + " " +
                 unit_text(answer) +

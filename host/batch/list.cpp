@@ -77,10 +77,18 @@ bool is_with_unit(const std::string& letters, const std::string& column) {
   return !unit.empty() && unit_meant(unit) == unit;
 }
 
+/// Whether one is a slip of the other. A name of up to three letters is one edit from too many
+/// words: mat and map are not max, nor is tool tol; one letter too many at its end is a slip.
+bool is_slip(const std::string& letters, const std::string& known) {
+  constexpr size_t kLongEnough = 4;
+  if (known.size() < 3) return false;
+  if (known.size() >= kLongEnough) return edits(letters, known) <= 1;
+  return letters.starts_with(known) && letters.size() == known.size() + 1;
+}
+
 /// Returns the column that a name which is none may mean, such as max for Max, maxx and limit; else
-/// nothing. A name of one or two letters is one edit from too many.
+/// nothing.
 std::string column_meant(const std::string& name) {
-  constexpr size_t kLongEnough = 3;
   const std::string letters = letters_of(name);
   for (const Column& column : kColumns) {
     const std::string known = letters_of(column.name);
@@ -91,8 +99,7 @@ std::string column_meant(const std::string& name) {
   }
   for (const Column& column : kColumns) {
     const std::string known = letters_of(column.name);
-    if (std::min(known.size(), letters.size()) >= kLongEnough && edits(letters, known) <= 1)
-      return column.name;
+    if (is_slip(letters, known)) return column.name;
   }
   return "";
 }

@@ -168,8 +168,8 @@ TEST_CASE("a name that nearly is a column's is refused, and one that is like non
     }
   }
   CHECK(error_of("n.csv", "ID,a,b\n1,a.obj,b.obj\n").find("did you mean id?") != std::string::npos);
-  for (const char* name :
-       {"note", "c", "xy", "min", "mass", "max_stress", "volume", "author", ""}) {
+  for (const char* name : {"note", "c", "xy", "min", "mat", "map", "vol", "tool", "mass",
+                           "max_stress", "volume", "author", ""}) {
     const PairList list =
         read_text("n.csv", std::string("id,a,b,") + name + "\n1,a.obj,b.obj,0.1mm\n");
     CHECK_MESSAGE(list.notes.size() == 1, name);
