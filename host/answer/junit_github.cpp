@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "host/answer/options.h"
 #include "host/base/decimal.h"
 #include "vkhausdorff/answer.h"
 #include "vkhausdorff/note.h"
@@ -101,8 +102,7 @@ std::vector<std::string> server_notes_of(const Answer& answer) {
 }
 
 std::string max_text(const Asked& max) {
-  return max.sides ? "+" + max.sides->over.requested + ",-" + max.sides->under.requested
-                   : max.length.requested;
+  return max.sides ? sided_text(max.sides->over, max.sides->under) : max.length.requested;
 }
 
 std::string case_name(const Answer& answer) {

@@ -136,6 +136,10 @@ std::optional<SidedMax> parse_sided(const char* option, const std::string& text)
                   parse_length(option, under.substr(1), PlainNumber::kRefused)};
 }
 
+std::string sided_text(const Length& over, const Length& under) {
+  return "+" + over.requested + ",-" + under.requested;
+}
+
 void put_max(const char* option, const std::string& text, Question& question) {
   question.max_sides = parse_sided(option, text);
   question.max = question.max_sides ? question.max_sides->over

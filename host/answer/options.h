@@ -27,6 +27,8 @@ double parse_time(const std::string& text);
 /// "+0.25mm,-0.4mm": the limits over B and under it, in either order. Nothing for a text that has
 /// no sign before a number.
 std::optional<SidedMax> parse_sided(const char* option, const std::string& text);
+/// Writes both limits so, the one over B first, as they were asked for.
+std::string sided_text(const Length& over, const Length& under);
 
 /// Puts a limit, one for both sides or one for each, in place of what the question has.
 void put_max(const char* option, const std::string& text, Question& question);

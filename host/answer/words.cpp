@@ -153,7 +153,7 @@ std::string percent(double share, double asked, Rounding rounding) {
          " %";
 }
 
-/// What decides the verdict that a survey left open: more of what ended it.
+/// Says what would decide a verdict that a survey left open: more of what ended it.
 std::string survey_hint(const Answer& answer, bool back) {
   const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
   if (!survey) return hint(answer, (back ? *answer.b_to_a : answer.a_to_b).status);

@@ -13,6 +13,7 @@
 
 #include "host/answer/ask_files.h"
 #include "host/answer/exit_code.h"
+#include "host/answer/options.h"
 #include "host/app/arguments.h"
 #include "host/app/doctor.h"
 #include "host/app/many_pairs.h"
@@ -84,8 +85,7 @@ struct Places {
 std::string case_name_of(const Question& question) {
   std::string max;
   if (question.max) max = question.max->requested;
-  if (question.max_sides)
-    max = "+" + question.max_sides->over.requested + ",-" + question.max_sides->under.requested;
+  if (question.max_sides) max = sided_text(question.max_sides->over, question.max_sides->under);
   return pair_name(question.file_a, question.file_b, question.symmetric, max);
 }
 

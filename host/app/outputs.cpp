@@ -43,7 +43,7 @@ Outputs outputs_in(const Words& words, Words& others) {
 std::string max_text(const std::string& typed) {
   try {
     const std::optional<SidedMax> sides = parse_sided("--max", typed);
-    return sides ? "+" + sides->over.requested + ",-" + sides->under.requested : typed;
+    return sides ? sided_text(sides->over, sides->under) : typed;
   } catch (const UsageError&) {
     return typed;
   }

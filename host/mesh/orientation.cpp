@@ -10,15 +10,9 @@
 #include "host/mesh/exact_sum.h"
 
 namespace vkh {
-namespace {
 
-// The sign by plain doubles; 0 where rounding leaves it open. Each of the differences, products and
-// sums rounds by 2^-53 of itself: seven of them stand between a term and the result (Shewchuk 1997
-// has 7 + 2^-47 of them against the sum of the terms' sizes). Sixteen are taken. What underflows is
-// under 2^-1070 times the largest difference, which is far below the size that is asked for.
-int sure_orientation(const Corners3& from_d) {
-  const auto& [a, b, c] = from_d;
-  double sum = 0, size = 0, largest = 0;
+void DeterminantSum::add(const Corners3& vectors) {
+  const auto& [a, b, c] = vectors;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const double left = b[j] * c[k], right = b[k] * c[j];
@@ -26,8 +20,24 @@ int sure_orientation(const Corners3& from_d) {
     size += std::abs(a[i]) * (std::abs(left) + std::abs(right));
     largest = std::max({largest, std::abs(a[i]), std::abs(b[i]), std::abs(c[i])});
   }
-  if (!(size > 1e-240 && largest < 1e60 && std::abs(sum) > 16 * 0x1p-53 * size)) return 0;
-  return sum > 0 ? -1 : 1;  // from d the corners of a triangle whose front it sees turn left
+}
+
+int DeterminantSum::sign(double roundings) const {
+  const bool is_sure =
+      size > 1e-240 && largest < 1e60 && std::abs(sum) > roundings * 0x1p-53 * size;
+  if (!is_sure) return 0;
+  return sum > 0 ? 1 : -1;
+}
+
+namespace {
+
+// The sign by plain doubles; 0 where rounding leaves it open. Each of the differences, products and
+// sums rounds by 2^-53 of itself: seven of them stand between a term and the result (Shewchuk 1997
+// has 7 + 2^-47 of them against the sum of the terms' sizes). Sixteen are taken.
+int sure_orientation(const Corners3& from_d) {
+  DeterminantSum determinant;
+  determinant.add(from_d);
+  return -determinant.sign(16);  // from d the corners of a triangle whose front it sees turn left
 }
 
 // Three doubles as integers of 40 bits at most over one power of two, which they share.

@@ -1,6 +1,7 @@
 #include "host/mesh/triangle_tree.h"
 
 #include <glm/common.hpp>
+#include <numeric>
 
 namespace vkh {
 namespace {
@@ -9,6 +10,12 @@ int longest_axis(const TriangleBox& box) {
   const glm::dvec3 size = box.hi - box.lo;
   if (size.x >= size.y && size.x >= size.z) return 0;
   return size.y >= size.z ? 1 : 2;
+}
+
+std::vector<uint32_t> numbers_to(size_t count) {
+  std::vector<uint32_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  return numbers;
 }
 
 }  // namespace
@@ -21,6 +28,9 @@ TriangleTree::TriangleTree(std::span<const Corners3> triangles, std::vector<uint
     : order_(std::move(which)) {
   if (!order_.empty()) build(triangles, 0, static_cast<uint32_t>(order_.size()));
 }
+
+TriangleTree::TriangleTree(std::span<const Corners3> triangles)
+    : TriangleTree(triangles, numbers_to(triangles.size())) {}
 
 void TriangleTree::build(std::span<const Corners3> triangles, uint32_t begin, uint32_t end) {
   TriangleBox box = box_of(triangles[order_[begin]]);

@@ -34,6 +34,7 @@ class TriangleTree {
  public:
   /// `which` of the triangles are in it.
   TriangleTree(std::span<const Corners3> triangles, std::vector<uint32_t> which);
+  explicit TriangleTree(std::span<const Corners3> triangles);  ///< of all of them
 
   /// Calls see(triangle) for those in boxes that enter(box) says to enter, until one returns false.
   /// Returns whether none did.

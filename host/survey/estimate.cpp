@@ -68,8 +68,7 @@ struct NamedFaces {
 // All faces of B, for the few cells that are too coarse to name those that are closest.
 class AllFaces {
  public:
-  explicit AllFaces(const FramedCorners& mesh)
-      : corners_(corners_of_all(mesh)), tree_(corners_, numbers_to(mesh.face_count())) {}
+  explicit AllFaces(const FramedCorners& mesh) : corners_(corners_of_all(mesh)), tree_(corners_) {}
 
   double distance(const glm::dvec3& p) const {
     double nearest = std::numeric_limits<double>::infinity(), squared = nearest;
@@ -90,11 +89,6 @@ class AllFaces {
     std::vector<Corners3> all(mesh.face_count());
     for (uint32_t f = 0; f < all.size(); ++f) all[f] = mesh.of(f);
     return all;
-  }
-  static std::vector<uint32_t> numbers_to(size_t count) {
-    std::vector<uint32_t> numbers(count);
-    std::iota(numbers.begin(), numbers.end(), 0u);
-    return numbers;
   }
 
   std::vector<Corners3> corners_;

@@ -1,7 +1,6 @@
 #include "host/survey/point_distances.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "host/base/rounding.h"
 #include "host/mesh/round_to_float.h"
@@ -16,9 +15,7 @@ TriangleTree tree_of(const Mesh& mesh, const std::vector<glm::dvec3>& vertices) 
   triangles.reserve(mesh.faces.size());
   for (const UVec3& f : mesh.faces)
     triangles.push_back({vertices[f.x], vertices[f.y], vertices[f.z]});
-  std::vector<uint32_t> all(triangles.size());
-  std::iota(all.begin(), all.end(), 0u);
-  return {triangles, std::move(all)};
+  return TriangleTree(triangles);
 }
 
 }  // namespace

@@ -463,23 +463,12 @@ Inside Shells::wind(const std::vector<EdgeUse>& uses, const GoesOn& goes_on) {
 
 // Whether the winding numbers of a closed mesh add up to less than 0 over space: the sum of the
 // tetrahedra from one corner to each face. Each determinant is off by less than 8 2^-53 of its
-// terms' sizes (sure_orientation), and a sum of n by n 2^-53 of theirs more: n + 16 are taken. What
-// underflows is far below the size that is asked for.
+// terms' sizes (sure_orientation), and a sum of n by n 2^-53 of theirs more: n + 16 are taken.
 bool Shells::has_negative_volume() const {
   const glm::dvec3 from = triangles_[0][0];
-  double sum = 0, size = 0, largest = 0;
-  for (const Corners3& t : triangles_) {
-    const glm::dvec3 a = t[0] - from, b = t[1] - from, c = t[2] - from;
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      const double left = b[j] * c[k], right = b[k] * c[j];
-      sum += a[i] * (left - right);
-      size += std::abs(a[i]) * (std::abs(left) + std::abs(right));
-      largest = std::max({largest, std::abs(a[i]), std::abs(b[i]), std::abs(c[i])});
-    }
-  }
-  const double error = (static_cast<double>(triangles_.size()) + 16) * 0x1p-53 * size;
-  return size > 1e-240 && largest < 1e60 && sum < -error;
+  DeterminantSum volume;
+  for (const Corners3& t : triangles_) volume.add({t[0] - from, t[1] - from, t[2] - from});
+  return volume.sign(static_cast<double>(triangles_.size()) + 16) < 0;
 }
 
 std::optional<int> Shells::front_winding(uint32_t face) const {
