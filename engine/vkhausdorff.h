@@ -79,12 +79,12 @@
 
 /* The version of this header. Before 1.0 a minor version may break what the one before promised. */
 #define VKH_VERSION_MAJOR 0
-#define VKH_VERSION_MINOR 2
+#define VKH_VERSION_MINOR 3
 #define VKH_VERSION_PATCH 0
 /* To compare with: #if VKH_VERSION >= VKH_MAKE_VERSION(0, 2, 0) */
 #define VKH_MAKE_VERSION(major, minor, patch) ((major)*1000000 + (minor)*1000 + (patch))
 #define VKH_VERSION VKH_MAKE_VERSION(VKH_VERSION_MAJOR, VKH_VERSION_MINOR, VKH_VERSION_PATCH)
-#define VKH_VERSION_STRING "0.2.0"
+#define VKH_VERSION_STRING "0.3.0"
 
 /* Marks what the library exports. A shared library on Windows needs VKH_SHARED defined by those who
  * use it, as the CMake target and pkg-config do, and VKH_BUILDS_ENGINE by its own build. */

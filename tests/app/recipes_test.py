@@ -84,7 +84,7 @@ class Recipes(unittest.TestCase):
     def test_each_takes_the_package_that_a_release_writes_for_its_system(self):
         release = (RECIPES.parents[1] / "tools/release").read_text()
         pattern = re.search(r'files/(\$\S+\.deb)"', release)[1]
-        packages = {system: pattern.replace("${name%_*}", "vkhausdorff_0.2.0").replace("${system}", system).replace("${name##*_}", "amd64")
+        packages = {system: pattern.replace("${name%_*}", "vkhausdorff_0.3.0").replace("${system}", system).replace("${name##*_}", "amd64")
                     for system in ("debian12", "ubuntu24.04")}
         for recipe, system in (("Dockerfile", "debian12"), ("gitlab.yml", "debian12"), ("github.yml", "ubuntu24.04"), ("github-folders.yml", "ubuntu24.04")):
             taken = re.search(r"(?:COPY |\./)(vkhausdorff_\S+\.deb)", (RECIPES / recipe).read_text())[1]

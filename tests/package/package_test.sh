@@ -52,7 +52,7 @@ check_consumers() {
 cmake -S "$consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$package" -DCMAKE_BUILD_TYPE=Release >"$folder/log" &&
   cmake --build "$folder/cmake" >>"$folder/log" 2>&1 || { cat "$folder/log"; fail "the consumer does not build"; }
 check_consumers "$folder/cmake"
-sed 's/VkHausdorff 0.2/VkHausdorff 0.3/' "$consumer/CMakeLists.txt" >"$folder/CMakeLists.txt"
+sed 's/VkHausdorff 0.3/VkHausdorff 0.4/' "$consumer/CMakeLists.txt" >"$folder/CMakeLists.txt"
 if cmake -S "$folder" -B "$folder/newer" -DCMAKE_PREFIX_PATH="$package" >"$folder/log" 2>&1; then
   fail "find_package took this version for 0.3"
 fi
