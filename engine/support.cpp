@@ -47,6 +47,40 @@ F load(const VkhDeviceInfo& info, const char* name) {
   return reinterpret_cast<F>(info.getInstanceProcAddr(info.instance, name));
 }
 
+// Whether getInstanceProcAddr gives a function of `device` that Vulkan 1.1 or 1.2 brought. A driver
+// has none of a version that the instance was not created for.
+bool has_device_function(const VkhDeviceInfo& info, const char* name) {
+  const auto get = load<PFN_vkGetDeviceProcAddr>(info, "vkGetDeviceProcAddr");
+  return get(info.device, name) != nullptr;
+}
+
+std::string version_text(uint32_t version) {
+  return "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+         std::to_string(VK_API_VERSION_MINOR(version));
+}
+
+// The version that the instance was created for, if it is known to be less than Vulkan 1.2, or 0.
+uint32_t old_instance(const VkhDeviceInfo& info) {
+  if (info.apiVersion != 0) return info.apiVersion < VK_API_VERSION_1_2 ? info.apiVersion : 0;
+  if (load<PFN_vkVoidFunction>(info, "vkGetPhysicalDeviceProperties2") == nullptr)
+    return VK_API_VERSION_1_0;
+  if (info.device == VK_NULL_HANDLE || has_device_function(info, "vkResetQueryPool")) return 0;
+  return has_device_function(info, "vkTrimCommandPool") ? VK_API_VERSION_1_1 : VK_API_VERSION_1_0;
+}
+
+// Says what is older than Vulkan 1.2, device or instance, by functions that Vulkan 1.0 has: no
+// other may be called there.
+std::string too_old(const VkhDeviceInfo& info) {
+  VkPhysicalDeviceProperties properties;
+  load<PFN_vkGetPhysicalDeviceProperties>(info, "vkGetPhysicalDeviceProperties")(
+      info.physicalDevice, &properties);
+  if (properties.apiVersion < VK_API_VERSION_1_2)
+    return "Vulkan 1.2 is missing: the device has " + version_text(properties.apiVersion);
+  const uint32_t old = old_instance(info);
+  if (old == 0) return "";
+  return "the instance was created for " + version_text(old) + ", not 1.2 or later";
+}
+
 void query_extensions(const VkhDeviceInfo& info, DeviceFacts& facts) {
   const auto enumerate =
       load<PFN_vkEnumerateDeviceExtensionProperties>(info, "vkEnumerateDeviceExtensionProperties");
@@ -117,8 +151,6 @@ class Reasons {
 
 void check_limits(const DeviceFacts& facts, Reasons& reasons) {
   const VkPhysicalDeviceLimits& limits = facts.properties.properties.limits;
-  reasons.unless(facts.properties.properties.apiVersion >= VK_API_VERSION_1_2,
-                 "Vulkan 1.2 is missing");
   reasons.unless(limits.maxComputeWorkGroupInvocations >= gpu::kSortGroup &&
                      limits.maxComputeWorkGroupSize[0] >= gpu::kSortGroup,
                  "workgroups of 256 are not possible");
@@ -187,6 +219,8 @@ const char* vkhResultString(VkhResult result) {
 }
 
 const char* const* vkhGetRequiredExtensions(const VkhDeviceInfo* info, uint32_t* count) try {
+  *count = 0;
+  if (!vkh::too_old(*info).empty()) return vkh::kExtensions;
   vkh::DeviceFacts facts;
   vkh::query_facts(*info, facts);
   const bool first = vkh::has_extension(facts, vkh::kExtensions[0]);
@@ -202,12 +236,13 @@ namespace vkh {
 namespace {
 
 std::string reasons_against(const VkhDeviceInfo& info) {
-  if (load<PFN_vkVoidFunction>(info, "vkGetPhysicalDeviceProperties2") == nullptr)
-    return "Vulkan 1.2 is missing";
+  if (const std::string old = too_old(info); !old.empty()) return old;
   DeviceFacts facts;
   query_facts(info, facts);
-  // Every device answers this since Vulkan 1.1, and lavapipe only where the instance is as new.
-  if (facts.subgroup.subgroupSize == 0) return "the instance was created for less than Vulkan 1.2";
+  // Every device answers this since Vulkan 1.1, and lavapipe only where the instance is as new. It
+  // is asked where VkhDeviceInfo tells no version and has no device.
+  if (facts.subgroup.subgroupSize == 0)
+    return "the instance was created for Vulkan 1.0, not 1.2 or later";
   query_features(info, facts);
   Reasons why;
   check_limits(facts, why);

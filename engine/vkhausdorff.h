@@ -172,13 +172,17 @@ typedef struct VkhDeviceInfo {
   VkInstance instance; /* Vulkan 1.2 or later */
   VkPhysicalDevice physicalDevice;
   VkDevice device; /* created with what vkhGetRequiredExtensions and vkhQuerySupport name */
+  /* The version that `instance` was created for, VkApplicationInfo::apiVersion: Vulkan has no way
+   * to ask for it, and an older instance is then named before a function of Vulkan 1.1 is called.
+   * 0: not told, so that an older one is named once `device` shows it. */
+  uint32_t apiVersion;
 } VkhDeviceInfo;
 
 /* Device extensions that must be enabled, a static array of `count` static strings: those of
  * VK_KHR_synchronization2 (if none: Vulkan 1.3, device and instance) and VK_KHR_push_descriptor (if
- * none: vkhReleaseCommandBuffer) that the device has. The features scalarBlockLayout (Vulkan 1.2)
- * and synchronization2 must be enabled too. Nothing else is: no fp64, no 64-bit or float atomics,
- * no ray queries, no fixed subgroup size. */
+ * none: vkhReleaseCommandBuffer) that the device has; none where Vulkan 1.2 is missing. The
+ * features scalarBlockLayout (Vulkan 1.2) and synchronization2 must be enabled too. Nothing else
+ * is: no fp64, no 64-bit or float atomics, no ray queries, no fixed subgroup size. */
 VKH_API const char* const* vkhGetRequiredExtensions(const VkhDeviceInfo* info, uint32_t* count);
 
 /* Whether a physical device can run the engine: extensions, features, limits, subgroup operations.
@@ -371,7 +375,7 @@ VKH_API void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuf
 typedef struct VkhRunOptions {
   size_t size; /* sizeof(VkhRunOptions) */
   /* >= 0, in the coordinates' units: candidates within it of the lower bound are closed. Here and
-   * below, NaN and what is under 0 stand for 0. */
+   * below, NaN and what is under 0 break a rule; where rules are not checked they stand for 0. */
   float cullTolerance;
   /* Use the vertices' low parts, and steer by 48-bit positions: if there are low parts, and for
    * tolerances under about 1e-6 of the coordinates' magnitude. The interval is certified either

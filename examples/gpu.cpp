@@ -7,6 +7,7 @@
 namespace example {
 namespace {
 
+constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr uint32_t kBuffers = 8;
 constexpr uint32_t kPushBytes = 128;
 constexpr VkShaderStageFlags kStages =
@@ -34,7 +35,7 @@ VkDebugUtilsMessengerCreateInfoEXT messenger(uint32_t* count, const void* next) 
 }
 
 bool supported(VkInstance instance, VkPhysicalDevice physical) {
-  const VkhDeviceInfo info{vkGetInstanceProcAddr, instance, physical, VK_NULL_HANDLE};
+  const VkhDeviceInfo info{vkGetInstanceProcAddr, instance, physical, VK_NULL_HANDLE, kApiVersion};
   return vkhQuerySupport(&info, nullptr, 0) == VKH_SUCCESS;
 }
 
@@ -85,7 +86,7 @@ void Gpu::create_instance(bool validation) {
   const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   VkApplicationInfo app{};
   app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
-  app.apiVersion = VK_API_VERSION_1_3;
+  app.apiVersion = kApiVersion;
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pNext = validation ? &listen : nullptr;
@@ -157,7 +158,8 @@ void Gpu::create_device(bool graphics) {
   info.pNext = &scalar;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  const VkhDeviceInfo engine{vkGetInstanceProcAddr, instance_, physical_, VK_NULL_HANDLE};
+  const VkhDeviceInfo engine{vkGetInstanceProcAddr, instance_, physical_, VK_NULL_HANDLE,
+                             kApiVersion};
   info.ppEnabledExtensionNames = vkhGetRequiredExtensions(&engine, &info.enabledExtensionCount);
   check(vkCreateDevice(physical_, &info, nullptr, &device_), "creating a device");
   keep([this] { vkDestroyDevice(device_, nullptr); });

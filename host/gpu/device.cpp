@@ -15,6 +15,8 @@
 namespace vkh {
 namespace {
 
+// Of our instances. 1.3 alone may give a device synchronization2.
+constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
@@ -79,7 +81,7 @@ VkInstance make_instance(const VulkanApi& vk, const void* next, bool validation)
   VkApplicationInfo app{};
   app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   app.pApplicationName = "vkhausdorff";
-  app.apiVersion = VK_API_VERSION_1_3;  // 1.3 alone may give a device synchronization2
+  app.apiVersion = kApiVersion;
   std::vector<const char*> extensions;
   if (validation) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   VkInstanceCreateInfo info{};
@@ -134,23 +136,28 @@ uint64_t largest_local_heap(const VulkanApi& vk, VkPhysicalDevice physical) {
   return largest;
 }
 
-DeviceDescription describe(const VulkanApi& vk, VkInstance instance, VkPhysicalDevice physical) {
+// Returns why the engine cannot use a device, or nothing.
+std::string reasons_against(const VkhDeviceInfo& info) {
+  std::array<char, 512> reasons{};
+  vkhQuerySupport(&info, reasons.data(), reasons.size());
+  return reasons.data();
+}
+
+DeviceDescription describe(const VulkanApi& vk, const VkhDeviceInfo& info) {
   VkPhysicalDeviceDriverProperties driver{};
   driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   properties.pNext = &driver;
-  vk.GetPhysicalDeviceProperties2(physical, &properties);
+  vk.GetPhysicalDeviceProperties2(info.physicalDevice, &properties);
   DeviceDescription d;
   d.name = properties.properties.deviceName;
   d.driver = std::string(driver.driverName) + " " + driver.driverInfo;
   d.type = type_name(properties.properties.deviceType);
   d.api_version = version_text(properties.properties.apiVersion);
-  d.memory_bytes = largest_local_heap(vk, physical);
-  const VkhDeviceInfo info{vk.GetInstanceProcAddr, instance, physical, VK_NULL_HANDLE};
-  std::array<char, 512> reasons{};
-  d.usable = vkhQuerySupport(&info, reasons.data(), reasons.size()) == VKH_SUCCESS;
-  d.reason = reasons.data();
+  d.memory_bytes = largest_local_heap(vk, info.physicalDevice);
+  d.reason = reasons_against(info);
+  d.usable = d.reason.empty();
   return d;
 }
 
@@ -166,7 +173,10 @@ std::vector<Choice> enumerate(const VulkanApi& vk, VkInstance instance) {
   });
   std::vector<Choice> choices;
   choices.reserve(physicals.size());
-  for (VkPhysicalDevice p : physicals) choices.push_back({p, describe(vk, instance, p)});
+  for (VkPhysicalDevice p : physicals) {
+    const VkhDeviceInfo info{vk.GetInstanceProcAddr, instance, p, VK_NULL_HANDLE, kApiVersion};
+    choices.push_back({p, describe(vk, info)});
+  }
   std::stable_sort(choices.begin(), choices.end(), [](const Choice& x, const Choice& y) {
     return rank_of(x.description) < rank_of(y.description);
   });
@@ -332,9 +342,10 @@ void Device::adopt(const AdoptedDevice& adopted) {
     refuse("a handle is null");
   vk_->GetInstanceProcAddr = adopted.get_instance_proc_addr;
   load_instance(*vk_, adopted.instance);
-  if (vk_->GetPhysicalDeviceProperties2 == nullptr) refuse("Vulkan 1.2 is missing");
-  description_ = describe(*vk_, adopted.instance, adopted.physical);
-  if (!description_.usable) refuse(description_.reason);
+  const VkhDeviceInfo info{adopted.get_instance_proc_addr, adopted.instance, adopted.physical,
+                           adopted.device, 0};  // the device shows the instance's version
+  if (const std::string why = reasons_against(info); !why.empty()) refuse(why);
+  description_ = describe(*vk_, info);
   const std::vector<VkQueueFamilyProperties> families = queue_families(*vk_, adopted.physical);
   if (adopted.queue_family >= families.size() ||
       (families[adopted.queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
@@ -365,7 +376,7 @@ bool Device::is_lost() const {
 }
 
 VkhDeviceInfo Device::engine_info() const {
-  return {vk_->GetInstanceProcAddr, instance_, physical_, device_};
+  return {vk_->GetInstanceProcAddr, instance_, physical_, device_, owned_ ? kApiVersion : 0};
 }
 
 std::vector<DeviceDescription> list_devices() {

@@ -2,6 +2,7 @@
  * loader is opened here, as a program would; without one, or without a device, this is skipped. */
 #include <assert.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #ifdef _WIN32
 #include <windows.h>
@@ -14,6 +15,7 @@
 enum { kSkipped = 77, kMostDevices = 8 };
 
 static int failures = 0;
+static VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE; /* of the instance that is there */
 
 static void check(int holds, const char* what) {
   if (holds) return;
@@ -35,15 +37,49 @@ static PFN_vkGetInstanceProcAddr open_loader(void) {
   return get;
 }
 
+static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
+                                                 VkDebugUtilsMessageTypeFlagsEXT types,
+                                                 const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                 void* user) {
+  (void)severity, (void)types, (void)user;
+  check(0, data->pMessage);
+  return VK_FALSE;
+}
+
+/* With VKH_VALIDATION the validation layer looks on, and its messages are failures. */
 static VkInstance create_instance(PFN_vkGetInstanceProcAddr get, uint32_t version) {
-  VkApplicationInfo app = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO};
-  VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+  const char *layer = "VK_LAYER_KHRONOS_validation", *extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+  const VkDebugUtilsMessengerCreateInfoEXT listen = {
+      .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+      .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                         VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+      .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+      .pfnUserCallback = on_message};
+  const VkApplicationInfo app = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                 .apiVersion = version};
+  VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                               .pApplicationInfo = &app,
+                               .ppEnabledLayerNames = &layer,
+                               .ppEnabledExtensionNames = &extension};
   VkInstance instance = VK_NULL_HANDLE;
   PFN_vkCreateInstance create = (PFN_vkCreateInstance)get(NULL, "vkCreateInstance");
-  app.apiVersion = version;
-  info.pApplicationInfo = &app;
-  if (create == NULL || create(&info, NULL, &instance) != VK_SUCCESS) return VK_NULL_HANDLE;
-  return instance;
+  if (create == NULL) return VK_NULL_HANDLE;
+  info.enabledLayerCount = info.enabledExtensionCount = getenv("VKH_VALIDATION") != NULL;
+  if (info.enabledLayerCount == 1 && create(&info, NULL, &instance) == VK_SUCCESS) {
+    ((PFN_vkCreateDebugUtilsMessengerEXT)get(instance, "vkCreateDebugUtilsMessengerEXT"))(
+        instance, &listen, NULL, &messenger);
+    return instance;
+  }
+  info.enabledLayerCount = info.enabledExtensionCount = 0;
+  return create(&info, NULL, &instance) == VK_SUCCESS ? instance : VK_NULL_HANDLE;
+}
+
+static void destroy_instance(PFN_vkGetInstanceProcAddr get, VkInstance instance) {
+  if (messenger != VK_NULL_HANDLE)
+    ((PFN_vkDestroyDebugUtilsMessengerEXT)get(instance, "vkDestroyDebugUtilsMessengerEXT"))(
+        instance, messenger, NULL);
+  messenger = VK_NULL_HANDLE;
+  ((PFN_vkDestroyInstance)get(instance, "vkDestroyInstance"))(instance, NULL);
 }
 
 /* The first device that is supported; the reasons against the others are text. */
@@ -167,20 +203,41 @@ static void check_bare_device(VkhDeviceInfo info) {
   destroy(info.device, NULL);
 }
 
-/* A device that runs the engine, asked through an instance that is too old for it. */
-static void check_old_instance(PFN_vkGetInstanceProcAddr get) {
-  VkhDeviceInfo info = {get, create_instance(get, VK_API_VERSION_1_0), VK_NULL_HANDLE,
-                        VK_NULL_HANDLE};
+/* An instance that is too old is named as `reason` says, and so is the device that it has. */
+static void check_refused(VkhDeviceInfo info, const char* reason) {
+  VkhContextCreateInfo create = {.size = sizeof create};
+  VkhContext context = NULL;
   uint32_t count = 1;
   char reasons[256] = "";
+  CHECK(vkhQuerySupport(&info, reasons, sizeof reasons) == VKH_ERROR_UNSUPPORTED);
+  check(strcmp(reasons, reason) == 0, reasons);
+  vkhGetRequiredExtensions(&info, &count);
+  CHECK(count == 0);
+  create.device = info;
+  CHECK(vkhCreateContext(&create, &context) == VKH_ERROR_UNSUPPORTED);
+}
+
+/* A device that runs the engine, asked through an instance that is too old for it: told so, and
+ * where nothing but the device shows it. No call may be one that the instance does not have. */
+static void check_old_instance(PFN_vkGetInstanceProcAddr get, uint32_t minor) {
+  const uint32_t version = VK_MAKE_API_VERSION(0, 1, minor, 0);
+  VkhDeviceInfo info = {.getInstanceProcAddr = get, .instance = create_instance(get, version)};
+  uint32_t count = 1;
+  char reason[80];
+  snprintf(reason, sizeof reason, "the instance was created for Vulkan 1.%u, not 1.2 or later",
+           minor);
   if (info.instance == VK_NULL_HANDLE) return;
   if (((PFN_vkEnumeratePhysicalDevices)get(info.instance, "vkEnumeratePhysicalDevices"))(
           info.instance, &count, &info.physicalDevice) >= 0) {
-    CHECK(vkhQuerySupport(&info, reasons, sizeof reasons) == VKH_ERROR_UNSUPPORTED);
-    CHECK(strcmp(reasons, "the instance was created for less than Vulkan 1.2") == 0 ||
-          strcmp(reasons, "Vulkan 1.2 is missing") == 0);
+    info.apiVersion = version;
+    check_refused(info, reason);
+    info.device = create_device(info, 1);
+    CHECK(info.device != VK_NULL_HANDLE);
+    info.apiVersion = 0;
+    check_refused(info, reason);
+    ((PFN_vkDestroyDevice)get(info.instance, "vkDestroyDevice"))(info.device, NULL);
   }
-  ((PFN_vkDestroyInstance)get(info.instance, "vkDestroyInstance"))(info.instance, NULL);
+  destroy_instance(get, info.instance);
 }
 
 static void check_names(void) {
@@ -190,14 +247,14 @@ static void check_names(void) {
 }
 
 int main(void) {
-  VkhDeviceInfo info = {NULL, VK_NULL_HANDLE, VK_NULL_HANDLE, VK_NULL_HANDLE};
+  VkhDeviceInfo info = {.apiVersion = VK_API_VERSION_1_3};
   static_assert(sizeof(VkhReport) == 72, "no padding, and what a frame reads");
   static_assert(sizeof(VkhStatistics) == 4 * (4 + VKH_MAX_CULLS + 7 * VKH_MAX_WAVE_RECORDS),
                 "no padding");
   check_names();
   info.getInstanceProcAddr = open_loader();
   if (info.getInstanceProcAddr != NULL)
-    info.instance = create_instance(info.getInstanceProcAddr, VK_API_VERSION_1_3);
+    info.instance = create_instance(info.getInstanceProcAddr, info.apiVersion);
   if (info.instance != VK_NULL_HANDLE) info.physicalDevice = choose(info);
   if (info.physicalDevice == VK_NULL_HANDLE) {
     puts("api_c11: no loader or no supported device; only what needs none was checked");
@@ -205,8 +262,8 @@ int main(void) {
   }
   check_context(info);
   check_bare_device(info);
-  check_old_instance(info.getInstanceProcAddr);
-  ((PFN_vkDestroyInstance)info.getInstanceProcAddr(info.instance, "vkDestroyInstance"))(
-      info.instance, NULL);
+  destroy_instance(info.getInstanceProcAddr, info.instance);
+  check_old_instance(info.getInstanceProcAddr, 0);
+  check_old_instance(info.getInstanceProcAddr, 1);
   return failures > 0 ? 1 : 0;
 }

@@ -39,11 +39,13 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance instance, 
   return real_instance_function(instance, name);
 }
 
+constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
+
 VkInstance make_instance(const VulkanApi& vk) {
   VkApplicationInfo app{};
   app.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   app.pApplicationName = "vkh_compile";
-  app.apiVersion = VK_API_VERSION_1_3;
+  app.apiVersion = kApiVersion;
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pApplicationInfo = &app;
@@ -119,7 +121,8 @@ StatisticsDevice::StatisticsDevice() {
   if (features.executables.pipelineExecutableInfo != VK_TRUE)
     throw vkh::DeviceError("the driver has no statistics of pipelines");
   made_.has_addresses = features.addresses.bufferDeviceAddress == VK_TRUE;
-  const VkhDeviceInfo info{vk.GetInstanceProcAddr, made_.instance, made_.physical, VK_NULL_HANDLE};
+  const VkhDeviceInfo info{vk.GetInstanceProcAddr, made_.instance, made_.physical, VK_NULL_HANDLE,
+                           kApiVersion};
   made_.device = make_device(vk, info, features, made_.queue_family);
   vkh::load_device(vk, made_.device);
   vk.GetDeviceQueue(made_.device, made_.queue_family, 0, &made_.queue);
