@@ -26,7 +26,7 @@ OUTSIDE = {"gpu_types.h", "stages.h"}  # seen by both languages: before every ro
 BESIDE = {"host/python", "tests/package", "tests/verification/layer"}  # with builds of their own: after all of the floor's rooms
 # The public headers of host/ lie in one folder, as they are installed; each belongs to a room.
 PUBLIC = {
-    "base": "error length limit note sha256",
+    "base": "error length limit needs_cpp20 note sha256",
     "gpu": "device device_description",
     "mesh": "file_faces mesh mesh_transform polygon",
     "read": "mesh_io place read_limits",

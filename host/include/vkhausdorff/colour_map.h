@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "vkhausdorff/error.h"
+
 namespace vkh {
 
 struct Rgb {

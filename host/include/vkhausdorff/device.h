@@ -11,6 +11,7 @@
 
 #include "vkhausdorff.h"
 #include "vkhausdorff/device_description.h"
+#include "vkhausdorff/error.h"
 
 namespace vkh {
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 struct DeviceDescription {

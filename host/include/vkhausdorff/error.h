@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 /// The program's exit codes.

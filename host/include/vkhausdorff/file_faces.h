@@ -7,6 +7,8 @@
 #include <numeric>
 #include <vector>
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 /// A file's faces are numbered from 0 as they stand in it. One of more than three corners is fanned

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "vkhausdorff/error.h"
 #include "vkhausdorff/limit.h"
 
 namespace vkh {

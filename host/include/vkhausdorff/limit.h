@@ -1,6 +1,8 @@
 // A length to stay within.
 #pragma once
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 /// A length in the files' units, rounded down and up to doubles: a distance of at most `within` is

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "vkhausdorff/error.h"
 #include "vkhausdorff/file_faces.h"
 #include "vkhausdorff/mesh_transform.h"
 #include "vkhausdorff/note.h"

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 /// The three upper rows of a matrix by rows, whose last row is 0 0 0 1.

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 enum class NoteCode {

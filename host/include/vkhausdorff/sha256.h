@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 /// A file by its name and its bytes.

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 /// The side of B, as its faces are oriented: over is in front of them.

@@ -23,6 +23,7 @@
 #include <vkhausdorff/mesh_io.h>
 #include <vkhausdorff/mesh_transform.h>
 #include <vkhausdorff/metrics.h>
+#include <vkhausdorff/needs_cpp20.h>
 #include <vkhausdorff/note.h>
 #include <vkhausdorff/place.h>
 #include <vkhausdorff/polygon.h>
