@@ -15,9 +15,12 @@ namespace fs = std::filesystem;
 // A signal handler can reach nothing but a global.
 volatile std::sig_atomic_t g_interrupted = 0;
 
-extern "C" void on_interrupt(int signal) {
+// `static`, since a function of C in a namespace without a name is visible to all of the program.
+extern "C" {
+static void on_interrupt(int signal) {
   g_interrupted = 1;
   std::signal(signal, SIG_DFL);
+}
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `pip wheel` makes a wheel of these sources, without the network; in a fresh virtual environment it works, has its types, and
-# goes without a trace. NumPy is the system's. usage: wheel_test.sh SOURCE FOLDER PYTHON; FOLDER/tree: engine_test.sh's.
+# `pip wheel` makes a wheel of these sources, in pip's own environment and without the network; in a fresh virtual environment
+# it works, has its types, and goes without a trace. NumPy is the system's. usage: wheel_test.sh SOURCE FOLDER PYTHON; FOLDER/tree: engine_test.sh's.
 # Exit code 77: a part of Python is not there.
 set -euo pipefail
 source=$1 folder=$2 python=$3
@@ -16,8 +16,8 @@ version=$(sed -nE 's/^#define VKH_VERSION_(MAJOR|MINOR|PATCH) //p' "$source/engi
 # setuptools writes beside setup.py: into a folder of links to the sources.
 rm -rf "$folder"/{checkout,dist,venv}
 mkdir "$folder/checkout"
-ln -s "$source"/{pyproject.toml,setup.py,MANIFEST.in,README.md,LICENSE,engine,host} "$folder/checkout"
-VKH_BUILD_DIR=$folder/tree step "$python" -m pip wheel --no-index --no-build-isolation --no-deps -w "$folder/dist" "$folder/checkout"
+ln -s "$source"/{pyproject.toml,setup.py,MANIFEST.in,README.md,LICENSE,engine,host,tools} "$folder/checkout"
+VKH_BUILD_DIR=$folder/tree step "$python" -m pip wheel --no-index --no-deps -w "$folder/dist" "$folder/checkout"
 wheels=("$folder"/dist/*)
 wheel=${wheels[0]}
 [ ${#wheels[@]} -eq 1 ] || fail "wrote ${wheels[*]}"
