@@ -43,10 +43,11 @@ step "${dpkg[@]}" -i "${files[@]}"
 printf 'OFF\n3 1 0\n0 0 0.25\n1 0 0.25\n0 1 0.25\n3 0 1 2\n' >"$folder/a.off"
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >"$folder/b.off"
 step "$root/usr/bin/vkhausdorff" distance "$folder/a.off" "$folder/b.off"
-step cmake -S "$source/tests/package/alone" -B "$folder/use" -DCMAKE_PREFIX_PATH="$root/usr" -DWANTED=engine
-grep -q "VkHausdorff_DIR:PATH=$root/" "$folder/use/CMakeCache.txt" || fail "find_package found another package"
-step cmake --build "$folder/use"
-step "$folder/use/engine"
+step "$source/tests/package/page_project.sh" "$source" "$folder/use" renderer package shader
+step cmake -S "$folder/use" -B "$folder/use/out" -DCMAKE_PREFIX_PATH="$root/usr"
+grep -q "VkHausdorff_DIR:PATH=$root/" "$folder/use/out/CMakeCache.txt" || fail "find_package found another package"
+step cmake --build "$folder/use/out"
+step "$folder/use/out/renderer"
 if [ "$python" != none ]; then
   PYTHONPATH=$root/usr/lib/python3/dist-packages step "$python" -B "$source/tests/package/example.py"
   grep -c closed "$folder/log" | grep -qx 3 || { cat "$folder/log"; fail "example.py printed something else"; }

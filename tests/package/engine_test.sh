@@ -30,37 +30,80 @@ check_program() {
   [ "$("$1")" = "$version" ] || fail "$1 printed something else"
 }
 
+# renderer NAME BLOCK...: a project around blocks of docs/packages.md, in $folder/NAME.
+renderer() { "$here/page_project.sh" "$source" "$folder/$1" renderer "${@:2}"; }
+# foreign_entries BUILD: of its cache, beyond what CMake and FetchContent make, and packages that are found.
+foreign_entries() {
+  sed -nE 's/^([A-Za-z][^:=]*):.*/\1/p' "$1/CMakeCache.txt" |
+    grep -vE '^(VKH_|VkHausdorff_|CMAKE_|FETCHCONTENT_|FIND_PACKAGE_|_|(Vulkan|VulkanHeaders|Python3?|Threads)_|GLSLANG$|renderer_)' || true
+}
+
 echo "-- add_subdirectory and FetchContent"
-step cmake -S "$here/subproject" -B "$folder/subproject" -DVKH_SOURCE="$source" "${hidden[@]}"
-check_tree "$folder/subproject"
-step cmake --build "$folder/subproject" -j "$VKH_JOBS"
-check_program "$folder/subproject/engine"
-step cmake --install "$folder/subproject" --prefix "$folder/nothing"
+renderer subproject subproject shader
+cat >>"$folder/subproject/CMakeLists.txt" <<'END'
+foreach(target IN ITEMS vkhausdorff vkh_host vkh_python vkh_bench vkh_embed vkh_test_support)
+  if(TARGET ${target})
+    message(FATAL_ERROR "a subproject is given the target ${target}")
+  endif()
+endforeach()
+END
+step cmake -S "$folder/subproject" -B "$folder/subproject/out" "${hidden[@]}"
+check_tree "$folder/subproject/out"
+left=$(foreign_entries "$folder/subproject/out")
+[ -z "$left" ] || fail "a subproject puts into its parent's cache: $left"
+step cmake --build "$folder/subproject/out" -j "$VKH_JOBS"
+check_program "$folder/subproject/out/renderer"
+step cmake --install "$folder/subproject/out" --prefix "$folder/nothing"
 [ ! -e "$folder/nothing" ] || fail "a subproject installs: $(find "$folder/nothing")"
-rm "$folder/subproject/engine"
-step cmake -S "$here/subproject" -B "$folder/subproject" -DFETCH=ON
-step cmake --build "$folder/subproject" -j "$VKH_JOBS"
-check_program "$folder/subproject/engine"
+rm "$folder/subproject/out/renderer" "$folder/subproject/out/close.spv"
+renderer subproject fetch shader
+step cmake -S "$folder/subproject" -B "$folder/subproject/out" -DFETCHCONTENT_SOURCE_DIR_VKHAUSDORFF="$source" -DVKH_INSTALL=ON
+step cmake --build "$folder/subproject/out" -j "$VKH_JOBS"
+check_program "$folder/subproject/out/renderer"
+
+# refused COMPONENT TEXT: find_package of it fails, and says TEXT.
+refused() {
+  sed -i -E "s/(find_package.*COMPONENTS) [a-z]+/\1 $1/" "$folder/use/CMakeLists.txt"
+  if cmake -S "$folder/use" -B "$folder/use/out" -DCMAKE_PREFIX_PATH="$package" >"$folder/log" 2>&1; then
+    fail "find_package found the component $1 in $package"
+  fi
+  tr -s ' \n' ' ' <"$folder/log" | grep -q "$2" || { cat "$folder/log"; fail "find_package does not say '$2'"; }
+  rm -r "$folder/use/out"
+}
 
 # use_package PACKAGE: found by CMake and by pkg-config, from C.
 use_package() {
-  step cmake -S "$here/alone" -B "$folder/use" -DCMAKE_PREFIX_PATH="$1" -DWANTED=engine "${hidden[@]}"
-  check_tree "$folder/use"
-  step cmake --build "$folder/use"
-  check_program "$folder/use/engine"
+  local package=$1
+  renderer use package shader
+  step cmake -S "$folder/use" -B "$folder/use/out" -DCMAKE_PREFIX_PATH="$package" "${hidden[@]}"
+  check_tree "$folder/use/out"
+  step cmake --build "$folder/use/out"
+  check_program "$folder/use/out/renderer"
+  rm -r "$folder/use/out"
+  refused host "the component host is not installed here"
+  refused nothing "there is no component 'nothing': COMPONENTS takes engine and host"
+  sed -i 's/ COMPONENTS nothing//' "$folder/use/CMakeLists.txt"  # all that is there
+  step cmake -S "$folder/use" -B "$folder/use/out" -DCMAKE_PREFIX_PATH="$package"
+  export PKG_CONFIG_PATH=$package/lib/pkgconfig
+  (cd "$folder/use" && step sh -e -c "$(python3 "$here/page_block.py" "$source/docs/packages.md" pkg-config)")
+  LD_LIBRARY_PATH=$package/lib check_program "$folder/use/renderer"
+  [ -s "$folder/use/close.spv" ] || fail "pkg-config's shader"
   rm -r "$folder/use"
-  step cmake -S "$here/alone" -B "$folder/use" -DCMAKE_PREFIX_PATH="$1"  # without COMPONENTS: all
-  if cmake -S "$here/alone" -B "$folder/host" -DCMAKE_PREFIX_PATH="$1" -DWANTED=host >"$folder/log" 2>&1; then
-    fail "find_package found a host that is not in $1"
-  fi
-  grep -q 'host' "$folder/log" || fail "find_package does not say that the host is missing"
-  rm -r "$folder/use" "$folder/host"
   # Words are split on purpose.
   # shellcheck disable=SC2046
-  ${CC:-cc} -std=c11 -pedantic -Wall -Werror "$here/consumer/engine.c" -o "$folder/pc_engine" -Wl,-rpath,"$1/lib" \
-    $(PKG_CONFIG_PATH=$1/lib/pkgconfig pkg-config --cflags --libs vkhausdorff)
-  check_program "$folder/pc_engine"
-  [ "$(PKG_CONFIG_PATH=$1/lib/pkgconfig pkg-config --modversion vkhausdorff)" = "$version" ] || fail "another version in the .pc file"
+  ${CC:-cc} -std=c11 -pedantic -Wall -Werror -fsyntax-only "$here/consumer/engine.c" $(pkg-config --cflags vkhausdorff)
+  [ "$(pkg-config --modversion vkhausdorff)" = "$version" ] || fail "another version in the .pc file"
+}
+
+# check_unload LIBRARY PART...: a plugin that makes a device and a context (tests/engine/api_c11.c) leaves nothing behind when
+# it is closed.
+check_unload() {
+  # shellcheck disable=SC2046
+  step ${CC:-cc} -shared -fPIC -Dmain=use_engine "-I$source" "$source/tests/engine/api_c11.c" -o "$folder/plugin.so" "-Wl,-rpath,$PKG_CONFIG_PATH/.." \
+    $(pkg-config --cflags --libs vkhausdorff) -ldl
+  local code=0
+  python3 -B "$here/unload.py" "$folder/plugin.so" use_engine "$@" >"$folder/log" 2>&1 || code=$?
+  [ $code -eq 0 ] || [ $code -eq 77 ] || { cat "$folder/log"; fail "a plugin stays in the process"; }
 }
 
 # install_engine SHARED PREFIX
@@ -77,6 +120,7 @@ check_tree "$folder/tree"
 [ -e "$folder/static/lib/libvkhausdorff.a" ] || fail "no archive"
 mv "$folder/static" "$folder/moved"
 use_package "$folder/moved"
+check_unload plugin.so
 
 echo "-- the package, shared"
 install_engine ON "$folder/shared"
@@ -84,9 +128,9 @@ library=$folder/shared/lib/libvkhausdorff.so.$version
 [ -e "$library" ] || fail "no $library"
 readelf -d "$library" | grep -q "SONAME.*\[libvkhausdorff.so.${version%.*}\]" || fail "another SONAME than ${version%.*}"
 if readelf -d "$library" | grep "NEEDED.*vulkan"; then fail "the engine links to the Vulkan loader"; fi
-# The same as in package_test.sh: vkh* alone, and the symbols that libstdc++ forces to be visible.
-nm -D --defined-only "$library" | awk '!($2 ~ /[WVu]/ && $3 !~ /3vkh/) {print $3}' | sort >"$folder/exported"
+nm -D --defined-only "$library" | awk '{print $NF}' | sort >"$folder/exported"
 grep -ohE '\bvkh[A-Z]\w*\(' "$folder/shared/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"
 diff "$folder/declared" "$folder/exported" || fail "the shared engine exports (>) other symbols than it declares (<)"
 use_package "$folder/shared"
+check_unload plugin.so libvkhausdorff.so
 echo "engine_test: passed"
