@@ -27,6 +27,14 @@ VkMemoryPropertyFlags wanted(Placement placement) {
   return 0;
 }
 
+// Rounded up: nothing that is allocated has a size of 0.
+std::string size_text(VkDeviceSize bytes) {
+  const bool is_small = bytes < (VkDeviceSize{1} << 20);
+  const int shift = is_small ? 10 : 20;
+  const VkDeviceSize most = (VkDeviceSize{1} << shift) - 1;
+  return std::to_string((bytes + most) >> shift) + (is_small ? " KiB" : " MiB");
+}
+
 VkPhysicalDeviceMemoryProperties memory_of(const Device& device) {
   VkPhysicalDeviceMemoryProperties memory;
   device.vk().GetPhysicalDeviceMemoryProperties(device.physical(), &memory);
@@ -106,7 +114,7 @@ void Buffer::allocate(const VkMemoryRequirements& needs, uint32_t type, bool has
   const VkResult result =
       device_->vk().AllocateMemory(device_->handle(), &allocate, nullptr, &memory_);
   check_made(result, memory_,
-             ("allocating " + std::to_string(size_ >> 20) + " MiB " +
+             ("allocating " + size_text(size_) + " " +
               (in_host_ ? "of the host's memory for the device" : "on the device"))
                  .c_str());
 }
