@@ -318,6 +318,15 @@ void narrow_pooled(const Finishing& at, const std::vector<Side>& sides) {
   }
 }
 
+/// Adds the shares within each band as what is known of them without a survey: from 0 to 1.
+void add_unknown_shares(const Finishing& at) {
+  for (const Limit& band : bands_of(at.question, at.answer)) {
+    MetricsWithin& within = at.answer.metrics->within.emplace_back();
+    within.distance = typed_length({band.within, band.beyond});
+    for (const NamedShare& share : kNamedShares) (within.*share.figure).value = {0, 1};
+  }
+}
+
 /// Computes the metrics from both surveys, and frees what only they needed. A survey that ended
 /// before it had figures leaves them unknown.
 void take_metrics(const Finishing& at, const std::vector<Side>& sides) {
@@ -325,6 +334,8 @@ void take_metrics(const Finishing& at, const std::vector<Side>& sides) {
   if (a.distribution && b.distribution) {
     compute_metrics(*at.question.metrics, at.answer);
     narrow_pooled(at, sides);
+  } else {
+    add_unknown_shares(at);
   }
   a.distribution.reset();
   b.distribution.reset();

@@ -26,6 +26,8 @@ std::string in_words(const py::object& object) { return py::cast<std::string>(py
 // make_mesh.
 py::array array_from(const std::string& what, const py::object& object,
                      const std::string& expected) {
+  if (object.is_none()) refuse(what, "None", expected);
+  refuse_masked(what, object);
   py::array array = py::array::ensure(object);
   if (!array) {
     PyErr_Clear();
@@ -129,6 +131,10 @@ std::vector<glm::uvec3> faces_from(const std::string& name, const py::object& ob
 }
 
 }  // namespace
+
+void refuse_masked(const std::string& what, const py::object& given) {
+  py::module_::import("vkhausdorff._meshes").attr("refuse_masked")(what, given);
+}
 
 std::vector<DVec3> points_from(const py::object& points) {
   const FloatEnvironment ours;

@@ -22,6 +22,8 @@ struct RawMesh {
 /// integer type. Arrays are copied: nothing of them is kept. `name` is "A" or "B", for messages.
 RawMesh raw_mesh_from(const std::string& name, const pybind11::object& vertices,
                       const pybind11::object& faces);
+/// Refuses a masked array that hides values, or a list of some: NumPy would show them.
+void refuse_masked(const std::string& what, const pybind11::object& given);
 /// Takes points as vertices are taken; there may be none.
 std::vector<DVec3> points_from(const pybind11::object& points);
 /// Does the same as raw_mesh_from and makes the mesh, within a Call.

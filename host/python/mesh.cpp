@@ -152,14 +152,28 @@ py::tuple named_arrays_of(const char* argument, const py::object& object) {
   }
 }
 
+// Says what an object has of a mesh and what it lacks, if it has anything.
+std::string lack_of(const py::object& object) {
+  const bool has_vertices = !attribute(object, "vertices").is_none();
+  const bool has_faces =
+      !attribute(object, "faces").is_none() || !attribute(object, "triangles").is_none();
+  if (has_vertices && !has_faces) return " that has .vertices and neither .faces nor .triangles";
+  if (has_faces && !has_vertices) return " that has faces and no .vertices";
+  return "";
+}
+
+[[noreturn]] void refuse_mesh(const char* argument, const py::object& object) {
+  const std::string given =
+      object.is_none() ? "None" : std::string("a value of type ") + Py_TYPE(object.ptr())->tp_name;
+  throw py::type_error(std::string(argument) +
+                       ": expected (vertices, faces), an object that has .vertices and .faces, "
+                       "a mesh of meshio, PyVista or VTK, or the path of a file, not " +
+                       given + lack_of(object));
+}
+
 py::tuple checked_arrays(const char* argument, const py::object& object) {
   py::tuple arrays = named_arrays_of(argument, object);
-  if (!has_arrays(arrays))
-    throw py::type_error(std::string(argument) +
-                         ": expected (vertices, faces), an object that has .vertices and .faces, "
-                         "a mesh of meshio, PyVista or VTK, or the path of a file, not a value of "
-                         "type " +
-                         Py_TYPE(object.ptr())->tp_name);
+  if (!has_arrays(arrays)) refuse_mesh(argument, object);
   return arrays;
 }
 
@@ -522,6 +536,21 @@ MeshPointer mesh_of(const char* argument, const std::string& name, const py::obj
 
 namespace {
 
+bool is_list_of_rows(const py::object& object) {
+  return py::isinstance<py::array>(object) || py::isinstance<py::list>(object) ||
+         py::isinstance<py::tuple>(object);
+}
+
+// Refuses, where a mesh stands for two arguments, what is neither a mesh nor one of them.
+void refuse_strange_meshes(const py::args& positional, const PointSides& points, bool is_b) {
+  for (size_t i = 0; i < positional.size(); ++i) {
+    const py::object given = positional[i];
+    const bool are_points = i == 0 ? points.a : points.b;
+    if (!are_points && !is_mesh(given) && !is_list_of_rows(given))
+      refuse_mesh(is_b || i == 1 ? "b" : "a", given);
+  }
+}
+
 // Refuses points without the word for them, beside a mesh: 'vb' would be missing otherwise.
 void refuse_bare_points(const py::args& positional, const std::vector<const char*>& apart) {
   const auto is_whole = [](const py::object& object) {
@@ -549,6 +578,8 @@ py::args spread(const py::args& positional, const py::kwargs& named,
   const auto is_points = [&](size_t i) { return i == 0 ? sides.a : sides.b; };
   for (size_t i = 0; are_meshes && i < positional.size(); ++i)
     are_meshes = is_points(i) || is_mesh(positional[i]);
+  if (may_be_meshes && !are_meshes)
+    refuse_strange_meshes(positional, sides, apart.front() == std::string_view("vb"));
   if (may_be_meshes && !are_meshes) refuse_bare_points(positional, apart);
   if (!are_meshes) return positional;
   py::list values;

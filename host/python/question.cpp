@@ -85,6 +85,7 @@ bool is_row(const py::object& given) {
 
 /// Reads the limits of A's faces. Of the whole, the largest is its limit.
 void read_face_limits(const py::object& max, const char* expected, Question& question) {
+  refuse_masked("max", max);
   const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(max);
   if (!numbers) PyErr_Clear();
   if (!numbers) refuse_type("max", expected, max);
@@ -232,6 +233,7 @@ std::string unit_from(const Arguments& given, const char* name) {
 MatrixRows matrix_from(const py::object& given) {
   constexpr const char* kExpected =
       "an array of four rows of four numbers, the last 0 0 0 1, the path of such a file, or None";
+  refuse_masked("transform", given);
   const auto numbers =
       py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given);
   if (!numbers) PyErr_Clear();

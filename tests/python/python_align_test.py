@@ -52,6 +52,13 @@ class Fits(unittest.TestCase):
         again = pickle.loads(pickle.dumps(fit))
         self.assertTrue((again.matrix == fit.matrix).all())
         self.assertEqual((again.rms, again.share), (fit.rms, fit.share))
+        self.assertEqual(again, fit)
+        for other in (vkh.Alignment(np.eye(4), fit.rms, fit.share, fit.samples, fit.poor, None),
+                      vkh.Alignment(fit.matrix, fit.rms, fit.share, fit.samples, fit.poor, 0.5), None):
+            self.assertFalse(again == other)
+        html = fit._repr_html_()
+        self.assertIn(f"<th>samples</th><td>{fit.samples}</td>", html)
+        self.assertIn(" ".join(map(repr, fit.matrix[0].tolist())), html)
 
     def test_align_of_distance_and_gate_is_transform_by_that_matrix(self):
         a, b = (posed(POINTS, 2), FACES), (POINTS, FACES)

@@ -66,6 +66,9 @@ class ClosestPoints(unittest.TestCase):
             for mine, theirs in zip((r.lower, *r), (other.lower, *other)):
                 np.testing.assert_array_equal(mine, theirs)
                 self.assertFalse(theirs.flags.writeable)
+            self.assertEqual(other, r)
+        self.assertFalse(r == vkh.closest((CUBE, CUBE_FACES), [[2, 0.5, 0.5], [0.5, 0.25, 0.4]]))
+        self.assertIn("<th>points</th><td>2</td>", r._repr_html_())
         self.assertEqual(repr(r), "<vkhausdorff.Closest of 2 points>")
 
     def test_a_solver_gives_the_same_bits(self):

@@ -344,6 +344,50 @@ class Meshes(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "polygons: use vtkTriangleFilter"):
             vkh.distance(poly_data([*rows, [0, 1, 2, 3]]), B)
 
+    def test_what_is_no_mesh_is_named(self):
+        points, faces = B
+        duck, headless = types.SimpleNamespace(vertices=points), types.SimpleNamespace(faces=faces)
+        strange = [(None, "None$"), (5, "a value of type int$"), (object(), "a value of type object$"),
+                   (duck, "SimpleNamespace that has .vertices and neither .faces nor .triangles$"),
+                   (types.SimpleNamespace(vertices=points, faces=None), "neither .faces nor .triangles$"),
+                   (headless, "SimpleNamespace that has faces and no .vertices$")]
+        with vkh.Solver(B) as solver:
+            for given, said in strange:
+                calls = [("a", lambda: vkh.distance(given, B)), ("b", lambda: vkh.distance(B, given)), ("a", lambda: vkh.gate(given, B, 1)),
+                         ("b", lambda: vkh.gate(B, given, 1)), ("b", lambda: vkh.Solver(given)), ("a", lambda: solver.distance(given)),
+                         ("a", lambda: vkh.metrics(given, B)), ("a", lambda: vkh.align(given, B))]
+                for name, call in calls:
+                    with self.subTest(said, name=name), self.assertRaisesRegex(TypeError, f"^{name}: expected .vertices, faces.*, not .*{said}"):
+                        call()
+        with self.assertRaisesRegex(ValueError, "^A's vertices: None; expected an array"):
+            vkh.distance(None, faces, points, faces)
+        self.assertIsInstance(vkh.distance(duck, B, points=True), vkh.Result)
+
+    def test_masks_of_numpy_hide_nothing_in_silence(self):
+        points, faces = map(np.array, B)
+        voxels = np.zeros((4, 4, 4), dtype=bool)
+        voxels[1:3, 1:3, 1:3] = True
+
+        def masked(values, hides=True):
+            made = np.ma.array(values, mask=np.zeros(np.shape(values), dtype=bool))
+            made.mask.flat[0] = hides
+            return made
+
+        uses = {"A's vertices": (points, lambda x: vkh.distance((x, faces), B)), "A's faces": (faces, lambda x: vkh.distance((points, x), B)),
+                "B's vertices": (points, lambda x: vkh.distance(points, faces, x, faces)),
+                "points": (points, lambda x: vkh.closest(B, x)), "max": (np.ones(len(faces)), lambda x: vkh.gate(B, B, x)),
+                "transform": (np.eye(4), lambda x: vkh.distance(B, B, transform=x)), "a": (voxels, lambda x: vkh.metrics(x, voxels, effort=100)),
+                "spacing": (np.ones(3), lambda x: vkh.metrics(voxels, voxels, spacing=x, effort=100)),
+                "affine": (np.eye(4), lambda x: vkh.metrics(voxels, voxels, affine=x, effort=100))}
+        for name, (values, use) in uses.items():
+            with self.subTest(name):
+                use(masked(values, hides=False))  # it hides nothing
+                for given in (masked(values), list(masked(values))):
+                    if isinstance(given, list) and values.ndim != 2:
+                        continue
+                    with self.assertRaisesRegex(ValueError, f"^{name}: a mask hides 1 of its values; expected an array without a mask"):
+                        use(given)
+
     def test_refusals(self):
         with tempfile.TemporaryDirectory() as folder:
             bad = pathlib.Path(folder) / "bad.stl"

@@ -50,6 +50,14 @@ class Meshes(unittest.TestCase):
         self.assertEqual(m.result.interval, m.hausdorff)
         self.assertNotIn("metrics", m.result.stats)
 
+    def test_shares_without_a_survey_are_unknown(self):
+        m = vkh.metrics((SQUARE, FACES), (SQUARE + [0, 0, 0.25], FACES), bands=[0.01, "30%"], on_progress=lambda *_: False)
+        for name in SHARES:
+            self.assertEqual([(key, tuple(share)) for key, share in getattr(m, name).items()], [(0.01, (0, 1)), ("30%", (0, 1))])
+        self.assertFalse(m.met)
+        self.assertIn("f1@0.01", m.unmet)
+        self.assertIn("<th>f1@0.01</th><td>0.0 to 1.0</td>", m._repr_html_())
+
     def test_figures_and_normals(self):
         m = vkh.metrics((SQUARE, FACES), (SQUARE + [0, 0, 0.25], FACES), bands=[0.25, 0.3], figures=["hd95", "normal_consistency"], normals=20)
         self.assertEqual((m.met, m.unmet), (True, ()), "shares at a jump are not asked for")

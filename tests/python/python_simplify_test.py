@@ -48,6 +48,12 @@ class Simplify(unittest.TestCase):
             with self.assertRaises(ValueError):
                 array[0, 0] = 1
         self.assertIn(f"of {len(faces)} faces", repr(self.found))
+        self.assertEqual(again, self.found)
+        other = vkh.Simplified(vertices[::-1], faces, interval, again.a_to_b, again.b_to_a, again.complete, again.tried)
+        self.assertFalse(again == other or again == interval)
+        html = self.found._repr_html_()
+        self.assertIn(f"<th>faces</th><td>{len(faces)}</td>", html)
+        self.assertIn(f"<th>interval</th><td>{interval.lower!r} to {interval.upper!r}</td>", html)
 
     def test_one_way_borders_and_shares_of_the_diagonal(self):
         r = vkh.simplify((VERTICES, FACES), "1%", one_way=True, lock_borders=True)

@@ -5,9 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from vkhausdorff._survey import Record
+
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
-class Alignment:
+class Alignment(Record):
     """The place of A on B that a fit found, which is not proven the best.
 
     matrix: (4, 4), float64, read-only: a rotation and a shift, which transform= takes. rms: the root mean square distance
@@ -32,6 +34,10 @@ class Alignment:
 
     def __reduce__(self):  # an unpickled array could be written to
         return Alignment, (self.matrix, self.rms, self.share, self.samples, self.poor, self.rival)
+
+    def _row(self):
+        row = {"rms": self.rms, "share": self.share, "samples": self.samples, "poor": self.poor, "rival": self.rival}
+        return {**row, **{f"matrix row {i}": " ".join(map(repr, line)) for i, line in enumerate(self.matrix.tolist())}}
 
     def __repr__(self):
         return f"<vkhausdorff.Alignment: {self.share:.1%} of {self.samples} samples, rms {self.rms:.4g}>"

@@ -5,9 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from vkhausdorff._survey import Record
+
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
-class Closest:
+class Closest(Record):
     """The points of a mesh that are closest to given points, by their rows: each distance lies in [lower, upper].
 
     lower, upper: float64 arrays of shape (n,), in the coordinates' unit, rounded outward. points: (n, 3), float64, each a
@@ -33,6 +35,10 @@ class Closest:
 
     def __iter__(self):
         return iter((self.upper, self.points, self.faces))
+
+    def _row(self):
+        farthest = float(self.upper.max()) if len(self.upper) else None
+        return {"points": len(self.lower), "farthest": farthest}
 
     def __repr__(self):
         return f"<vkhausdorff.Closest of {len(self.lower)} points>"

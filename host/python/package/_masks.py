@@ -5,6 +5,7 @@ from fractions import Fraction
 import numpy as np
 
 from vkhausdorff import _core
+from vkhausdorff._meshes import refuse_masked
 
 _ROUNDING = 2.0**-53
 
@@ -15,6 +16,7 @@ def is_mask(value):
 
 
 def _checked(name, mask):
+    refuse_masked(name, mask)
     if mask.dtype.kind not in "biu":
         raise TypeError(f"{name}: expected booleans or whole numbers, not {mask.dtype}; make a mask first: image > level")
     label = mask != 0
@@ -73,6 +75,8 @@ def _placed(corners, shape, affine):
 
 
 def _affine_of(spacing, affine):
+    refuse_masked("spacing", spacing)
+    refuse_masked("affine", affine)
     if affine is None:
         steps = np.array([1.0, 1.0, 1.0] if spacing is None else spacing, dtype=np.float64)
         if steps.shape != (3,) or not (np.isfinite(steps).all() and (steps > 0).all()):

@@ -6,6 +6,15 @@ import numpy as np
 _NO_SURFACE = {"vertex", "line"}  # what meshio has beside faces in files of meshers
 
 
+def refuse_masked(what, given):
+    """ValueError if it hides values under a mask of NumPy's, which an array that is made of it would show."""
+    parts = given if isinstance(given, (list, tuple)) else (given,)
+    hidden = sum(int(np.ma.getmaskarray(part).sum()) for part in parts if isinstance(part, np.ma.MaskedArray))
+    if hidden:
+        raise ValueError(f"{what}: a mask hides {hidden} of its values; expected an array without a mask: give the rows that "
+                         "count, or .data for all")
+
+
 def _refuse(found, remedy):
     raise ValueError(f"expected triangles, not {found}: {remedy}")
 

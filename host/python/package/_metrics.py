@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from vkhausdorff import _core, _masks
-from vkhausdorff._survey import Interval
+from vkhausdorff._survey import Interval, html_table
 
 _LENGTHS = ("hausdorff", "hd_p", "hd_p_pooled", "masd", "assd", "rms", "chamfer_l1", "chamfer_l2")
 _SHARES = ("nsd", "precision", "recall", "f1")
@@ -76,6 +76,9 @@ class Metrics:
         for name, e in self._rows():
             row[name], row[f"{name}_lower"], row[f"{name}_upper"] = e.estimate, e.lower, e.upper
         return {**row, "met": self.met}
+
+    def _repr_html_(self):
+        return html_table({**{name: f"{e.lower!r} to {e.upper!r}" for name, e in self._rows()}, "met": self.met})
 
     def __repr__(self):
         return f"<vkhausdorff.Metrics {', '.join(f'{name}={tuple(e)}' for name, e in self._rows())}{'' if self.met else ', not met'}>"

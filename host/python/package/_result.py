@@ -1,10 +1,9 @@
 """What Python adds to a Result of vkhausdorff._core: values that are made of others."""
 
-from html import escape
 from typing import Any, NamedTuple
 
 from vkhausdorff._core import Result
-from vkhausdorff._survey import Interval
+from vkhausdorff._survey import Interval, html_table
 
 
 class Witness(NamedTuple):
@@ -54,9 +53,7 @@ def _repr_html(r: Result) -> str | None:
     if r.error is not None:
         return None
     left_out = () if r._is_upper_sought else ("upper", "gap")
-    cells = "".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>"
-                    for name, value in _row(r).items() if value not in (None, "") and name not in left_out)
-    return f"<table>{cells}</table>"
+    return html_table({name: value for name, value in _row(r).items() if name not in left_out})
 
 
 _repr_html.__name__ = "_repr_html_"

@@ -5,11 +5,11 @@ from typing import Any
 
 import numpy as np
 
-from vkhausdorff._survey import Interval
+from vkhausdorff._survey import Interval, Record
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
-class Simplified:
+class Simplified(Record):
     """A mesh of fewer faces that is proven to be within max of A. It may be passed wherever a mesh may.
 
     vertices: (n, 3), float64, each a vertex of A; faces: (m, 3), uint32. Both are read-only. interval: the larger of both
@@ -41,6 +41,13 @@ class Simplified:
 
     def __iter__(self):
         return iter((self.vertices, self.faces, self.interval))
+
+    def _row(self):
+        row = {"vertices": len(self.vertices), "faces": len(self.faces)}
+        for name in ("interval", "a_to_b", "b_to_a"):
+            ends = getattr(self, name)
+            row[name] = None if ends is None else f"{ends.lower!r} to {ends.upper!r}"
+        return {**row, "complete": self.complete, "tried": self.tried}
 
     def __repr__(self):
         return f"<vkhausdorff.Simplified of {len(self.faces)} faces, within {self.interval.upper!r} of A>"

@@ -1,6 +1,7 @@
 """The results of a survey of a mesh, as Python shows them. vkhausdorff._core makes them."""
 
-from dataclasses import dataclass, field as _member
+from dataclasses import dataclass, field as _member, fields
+from html import escape
 from itertools import chain
 from numbers import Real
 from typing import Any, NamedTuple
@@ -8,6 +9,27 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from vkhausdorff import _core
+
+
+def html_table(row):
+    """A row of figures by their names as a table, for notebooks; without those that have no value."""
+    cells = "".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in row.items()
+                    if value not in (None, ""))
+    return f"<table>{cells}</table>"
+
+
+class Record:
+    """A dataclass of arrays and figures: it is equal to one with the same, and notebooks show _row() of it."""
+
+    __hash__ = None
+
+    def __eq__(self, other):
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, member.name), getattr(other, member.name)) for member in fields(self))
+
+    def _repr_html_(self):
+        return html_table(self._row())
 
 
 class _Bounds(NamedTuple):
