@@ -406,24 +406,25 @@ std::vector<Place> with(std::vector<Place> places, const std::vector<Place>& mor
 }  // namespace
 
 TEST_CASE("text PLY as it is written") {
-  check_format({"a.ply",
-                with(kPlyHeader,
-                     {kEncoding,
-                      kLineEnd,
-                      {"type", {{"float"}, {"double"}, {"float32"}, {"real", "'real' as a type"}}},
-                      {"vertices", {{"0"}, {"-1", "line"}, {"1", "line"}, {"4000", "announced"}}},
-                      {"faces", {{"4"}, {"3", "line"}, {"5", "line"}}},
-                      {"faces are", {{"faces"}, {"strips"}}},
-                      {"blank", {{" "}, {"\t"}, {"  "}, {",", "line"}}},
-                      {"two", {{"2"}, {"2e0"}, {"2.0"}, {"-inf", "inf"}}},
-                      {"behind vertex", {{""}, {" 255"}, {" 1 0.5"}, {" x"}}},
-                      {"behind face", {{""}, {" 255 0 0"}, {" 1 7"}}},
-                      {"between", {{""}, {"\n"}, {"comment x\n"}, {"# x\n", "line"}}},
-                      {"unused", {{""}, {"nan"}, {"-nan(ind)"}, {"1.#INF"}}},
-                      {"behind", {{""}, {"\n\n"}, {"made by x\n"}, {"3 0 1 2\n", "a row more"}}}}),
-                ply_text,
-                // One row of strips, which the count of faces does not count.
-                [](const Texts& t) { return t["faces are"] == "strips"; }});
+  check_format(
+      {"a.ply",
+       with(kPlyHeader,
+            {kEncoding,
+             kLineEnd,
+             {"type", {{"float"}, {"double"}, {"float32"}, {"real", "'real' as a type"}}},
+             {"vertices", {{"0"}, {"-1", "line"}, {"1", "line"}, {"4000", "announced"}}},
+             {"faces", {{"4"}, {"3", "line"}, {"5", "line"}}},
+             {"faces are", {{"faces"}, {"strips"}}},
+             {"blank", {{" "}, {"\t"}, {"  "}, {",", "line"}}},
+             {"two", {{"2"}, {"2e0"}, {"2.0"}, {"-inf", "inf"}}},
+             {"behind vertex", {{""}, {" 255"}, {" 1 0.5"}, {" x"}}},
+             {"behind face", {{""}, {" 255 0 0"}, {" 1 7"}}},
+             {"between", {{""}, {"\n"}, {"comment x\n"}, {"# x\n", "line"}}},
+             {"unused", {{""}, {"nan"}, {"-nan(ind)"}, {"1.#INF"}}},
+             {"behind", {{""}, {"\n\n"}, {"made by x\n"}, {"3 0 1 2\n3 0 1 2\n", "a row more"}}}}),
+       ply_text,
+       // One row of strips, which the count of faces does not count.
+       [](const Texts& t) { return t["faces are"] == "strips"; }});
 }
 
 namespace {
@@ -563,7 +564,8 @@ TEST_CASE("OFF as it is written") {
         {"two", {{"2"}, {"2.0e0"}, {"2d0", "as coordinate"}, {"nan", "not finite"}}},
         {"between", {{""}, {"\n"}, {"# x\n"}}},
         {"colour", {{""}, {" 255 0 0"}, {" 0.5"}}},
-        {"behind", {{""}, {"\n\n"}, {"# end"}, {"made by x\n"}, {"3 0 1 2\n", "a row more"}}}},
+        {"behind",
+         {{""}, {"\n\n"}, {"# end"}, {"made by x\n"}, {"3 0 1 2\n3 0 1 2\n", "a row more"}}}},
        [](const Texts& t) {
          std::string text =
              t["before"] + t["keyword"] + t["vertices"] + t["faces"] + t["edges"] + "\n";
