@@ -303,7 +303,7 @@ TEST_CASE("PLY: rows must hold what the header says") {
     return error_of(head + body, "a.ply").substr(0, 14);
   };
   CHECK(place("0 0\n0 1 0 0\n0 1 0\n3 0 1 2\n") == "a.ply: line 10");
-  CHECK(place("0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") == "a.ply: line 10");
+  CHECK(place("0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") == "a.ply: line 11");
   CHECK(place("0 0 0\n1 0 0\n0 1e39 0\n3 0 1 2\n") == "a.ply: line 12");
   CHECK(place("0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n") == "a.ply: line 13");
   CHECK(place("0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") == "a.ply: line 13");
