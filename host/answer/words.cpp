@@ -297,11 +297,24 @@ bool is_in_first_line(const Answer& answer, NoteCode code) {
   return is_odd_pair(code) || (code == NoteCode::kInsideOut && answer.max && answer.max->sides);
 }
 
-/// Says in a few words why the pair is odd; empty: it is not.
+/// Whether the note says that a part of a file was not read. Lines and points have no surface:
+/// they matter to a verdict alone.
+bool is_left_out(const Answer& answer, NoteCode code) {
+  return code == NoteCode::kSurfaces || code == NoteCode::kCalls ||
+         (code == NoteCode::kElements && answer.max);
+}
+
+/// Says in a few words why the pair is odd, or what was not read of it; empty: it is not.
 std::string oddities(const Answer& answer) {
   std::string text;
+  const auto add = [&](const std::string& clause) { text += (text.empty() ? "" : "; ") + clause; };
   for (const Note& note : answer.notes) {
-    if (is_in_first_line(answer, note.code)) text += (text.empty() ? "" : "; ") + clause_of(note);
+    if (is_in_first_line(answer, note.code)) add(clause_of(note));
+  }
+  for (size_t i = 0; i < 2; ++i) {
+    for (const Note& note : answer.inputs[i].notes) {
+      if (is_left_out(answer, note.code)) add((i == 0 ? "A: " : "B: ") + clause_of(note));
+    }
   }
   return text;
 }

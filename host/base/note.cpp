@@ -49,6 +49,9 @@ bool is_for_servers(NoteCode code) {
     case NoteCode::kPolygons:
     case NoteCode::kAmbiguity:
     case NoteCode::kBodies:
+    case NoteCode::kElements:
+    case NoteCode::kSurfaces:
+    case NoteCode::kCalls:
     case NoteCode::kUnits:
     case NoteCode::kSize:
     case NoteCode::kTurn:

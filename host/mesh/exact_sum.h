@@ -78,6 +78,18 @@ inline std::array<uint64_t, 3> product_of(uint64_t a, uint64_t b, uint64_t c) {
   return {low.low, high.low, high.high};
 }
 
+/// Sums products of three doubles without rounding, as ExactSum does those of two: bit 0 is worth
+/// 2^-3222, a product is under 2^3072, and 100 limbs leave 106 bits at the top.
+class ExactVolume : public WideInteger<100> {
+ public:
+  void add_product(double a, double b, double c, bool negative) {
+    int ea = 0, eb = 0, ec = 0;
+    const uint64_t ma = mantissa_of(a, ea), mb = mantissa_of(b, eb), mc = mantissa_of(c, ec);
+    add(product_of(ma, mb, mc), static_cast<unsigned>(ea + eb + ec + 3222),
+        negative != (std::signbit(a) != (std::signbit(b) != std::signbit(c))));
+  }
+};
+
 using Point2 = std::array<double, 2>;
 
 /// Sign of (a-c) x (b-c), multiplied out so that every term is a product of given coordinates.

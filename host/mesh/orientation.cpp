@@ -94,18 +94,6 @@ std::optional<int> short_orientation(const Corners3& from_d) {
   return -sum.sign();
 }
 
-// Sums products of three doubles without rounding, as ExactSum does those of two: bit 0 is worth
-// 2^-3222, a product is under 2^3072, and 100 limbs leave 106 bits at the top.
-class ExactVolume : public WideInteger<100> {
- public:
-  void add_product(double a, double b, double c, bool negative) {
-    int ea = 0, eb = 0, ec = 0;
-    const uint64_t ma = mantissa_of(a, ea), mb = mantissa_of(b, eb), mc = mantissa_of(c, ec);
-    add(product_of(ma, mb, mc), static_cast<unsigned>(ea + eb + ec + 3222),
-        negative != (std::signbit(a) != (std::signbit(b) != std::signbit(c))));
-  }
-};
-
 // Adds p . (q x r).
 void add_determinant(ExactVolume& sum, const glm::dvec3& p, const glm::dvec3& q,
                      const glm::dvec3& r, bool negative) {

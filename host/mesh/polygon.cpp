@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
@@ -361,7 +362,7 @@ class Clipper {
 // Each of e's three terms passes at most four roundings of u = 2^-53: e is off by less than 5 u
 // times the sum of their sizes, and by 2^-1072 where products underflow. 8 u covers the rounding
 // of that sum, of the difference and of the result.
-double ambiguity_of(const Corners& corners, const glm::dvec3& normal, int axis) {
+double plane_ambiguity(const Corners& corners, const glm::dvec3& normal, int axis) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto slope = [&](int k) {
     const double s = normal[k] / normal[axis];
@@ -381,12 +382,61 @@ double ambiguity_of(const Corners& corners, const glm::dvec3& normal, int axis) 
   return (most - least) * (1 + 8 * kUnit) + 16 * kUnit * size + 0x1p-1068;
 }
 
+// Returns how wide the corners lie round the line through the first and the one farthest from it.
+//
+// Let x be a point of one triangulation, at s along the line. Another triangulation is connected
+// and has all corners, so it has a point y at s, too. Both lie in the corners' hull, so x - y is at
+// most the greatest distance between the corners' feet r on a plane across the line. The same holds
+// for whatever else is connected, has all corners, and lies in their hull: of an outline that
+// crosses itself, its fan, and each way to fill it.
+//
+// The axes' widths of r bound that distance. r = d - s t, of differences d and t = the longest of
+// them, whose sum of sizes is L at most: with u = 2^-53, s is off by 10 u |d| / |t|, and a
+// coordinate of r by 20 u L with its own roundings. 80 u L covers both ends of three axes, and 8 u
+// the roundings of the sum. scale_of keeps the products within double.
+double line_ambiguity(const Corners& corners) {
+  const double scale = scale_of(corners);
+  const auto from_first = [&](size_t i) { return corners[i] * scale - corners[0] * scale; };
+  glm::dvec3 line(0);
+  double size = 0;
+  for (size_t i = 1; i < corners.size(); ++i) {
+    const glm::dvec3 d = from_first(i);
+    if (glm::dot(d, d) > glm::dot(line, line)) line = d;
+    size = std::max(size, std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
+  }
+  if (size == 0) return 0;
+  glm::dvec3 least(0), most(0);
+  for (size_t i = 1; i < corners.size(); ++i) {
+    const glm::dvec3 d = from_first(i);
+    const glm::dvec3 across = d - glm::dot(d, line) / glm::dot(line, line) * line;
+    least = glm::min(least, across);
+    most = glm::max(most, across);
+  }
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  const glm::dvec3 width = most - least;
+  const double across = std::sqrt(glm::dot(width, width)) * (1 + 8 * kUnit) + 80 * kUnit * size;
+  return across / scale * (1 + 2 * kUnit) + 0x1p-1068;
+}
+
 // The triangles of the ring: none if it has its fan.
 struct Outline {
   PolygonKind kind = PolygonKind::kCrossing;
   std::vector<Triangle> triangles;
   int axis = 0;
+  bool is_line = false;  ///< each triangulation is the same segment
 };
+
+// The normal of corners near a line is noise, and a plane says little of them.
+double ambiguity_of(const Corners& corners, const glm::dvec3& normal, const Outline& outline) {
+  constexpr double kNearPlane = 0x1p-20, kNearLine = 0x1p-10;  // of the corners' extent
+  if (outline.is_line) return 0;
+  if (has_only_fan(outline.kind)) return line_ambiguity(corners);
+  const double off_plane = plane_ambiguity(corners, normal, outline.axis);
+  const double extent = glm::length(corners[1] - corners[0]) + glm::length(corners[2] - corners[0]);
+  if (off_plane <= kNearPlane * extent) return off_plane;
+  const double off_line = line_ambiguity(corners);
+  return off_line <= kNearLine * extent ? std::min(off_plane, off_line) : off_plane;
+}
 
 Outline clipped(Ring&& ring, int axis, int sign) {
   if (sign < 0) {
@@ -439,7 +489,8 @@ Outline outline_of(const Corners& corners, const glm::dvec3& normal) {
     if (!refused) refused = std::move(outline);
   }
   if (refused) return std::move(*refused);
-  return {are_on_a_line(corners) ? PolygonKind::kFan : PolygonKind::kNoArea, {}, axes[0]};
+  const bool is_line = are_on_a_line(corners);
+  return {is_line ? PolygonKind::kFan : PolygonKind::kNoArea, {}, axes[0], is_line};
 }
 
 }  // namespace
@@ -449,9 +500,8 @@ PolygonResult triangulate_fan(std::span<const glm::dvec3> vertices, std::span<gl
   const glm::dvec3 normal = newell(corners);
   const Outline outline = outline_of(corners, normal);
   PolygonResult result{.kind = outline.kind, .axis = outline.axis};
-  if (has_only_fan(outline.kind)) return result;
-  result.ambiguity = ambiguity_of(corners, normal, outline.axis);
-  if (outline.kind == PolygonKind::kFan) return result;
+  result.ambiguity = ambiguity_of(corners, normal, outline);
+  if (outline.kind != PolygonKind::kClipped) return result;
   result.triangles.reserve(fan.size());
   for (const Triangle& t : outline.triangles) result.triangles.emplace_back(t[0], t[1], t[2]);
   place_triangles(result.triangles, fan);
@@ -459,7 +509,9 @@ PolygonResult triangulate_fan(std::span<const glm::dvec3> vertices, std::span<gl
 }
 
 Note note_on_ambiguity(const Polygons& polygons) {
-  std::string text = "corners off a plane leave the surface open by up to " +
+  std::string text = std::string("corners off a plane") +
+                     (polygons.fanned > 0 ? ", or slivers that cross themselves," : "") +
+                     " leave the surface open by up to " +
                      decimal(polygons.ambiguity, 3, Rounding::kUp) + ", at face " +
                      std::to_string(polygons.ambiguous_face);
   if (polygons.any_triangulation) text += ", and the interval is wider by it";

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <iterator>
+#include <limits>
+#include <mutex>
 
 #include "host/base/decimal.h"
+#include "host/base/hypot3.h"
 #include "host/base/reject.h"
 #include "vkhausdorff/note.h"
 #include "vkhausdorff/polygon.h"
@@ -25,6 +29,21 @@ Triangulation of_face(uint64_t face, uint32_t triangles, PolygonResult& result) 
   out.axis = result.axis;
   out.triangles = std::move(result.triangles);
   return out;
+}
+
+// Counts a polygon and keeps its triangles, if they are not the fan of a convex one.
+void add_polygon(uint64_t face, uint32_t triangles, PolygonResult& result, Polygons& all) {
+  if (result.kind != PolygonKind::kFan)
+    all.triangulations.push_back(of_face(face, triangles, result));
+  if (result.kind == PolygonKind::kClipped) ++all.clipped;
+  if (has_only_fan(result.kind) && all.fanned++ == 0) {
+    all.first_fanned = face;
+    all.first_kind = result.kind;
+  }
+  if (result.ambiguity > all.ambiguity) {
+    all.ambiguity = result.ambiguity;
+    all.ambiguous_face = face;
+  }
 }
 
 }  // namespace
@@ -125,32 +144,80 @@ bool FileMeshBuilder::is_measurable(std::span<const glm::uvec3> faces) const {
   });
 }
 
+// An outline that crosses itself, or encloses nothing, and is no wider than this was spoilt by the
+// rounding of its corners: writers give six digits or decimals. Its fan is as near to any filling.
+class FileMeshBuilder::SliverWidth {
+ public:
+  explicit SliverWidth(const std::vector<glm::dvec3>& vertices) : vertices_(vertices) {}
+
+  bool holds(double width) const {
+    constexpr double kOfDiagonal = 1e-4;
+    std::call_once(once_, [this] { diagonal_ = diagonal(); });
+    return width <= kOfDiagonal * diagonal_;
+  }
+
+ private:
+  double diagonal() const {
+    glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    for (const glm::dvec3& p : vertices_) {
+      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) continue;
+      low = glm::min(low, p);
+      high = glm::max(high, p);
+    }
+    return hypot3(high.x - low.x, high.y - low.y, high.z - low.z);
+  }
+
+  const std::vector<glm::dvec3>& vertices_;
+  mutable std::once_flag once_;
+  mutable double diagonal_ = 0;
+};
+
+void FileMeshBuilder::Triangulated::append(Triangulated&& part) {
+  Polygons& all = polygons;
+  Polygons& more = part.polygons;
+  std::move(more.triangulations.begin(), more.triangulations.end(),
+            std::back_inserter(all.triangulations));
+  if (all.fanned == 0) {
+    all.first_fanned = more.first_fanned;
+    all.first_kind = more.first_kind;
+  }
+  all.clipped += more.clipped;
+  all.fanned += more.fanned;
+  if (more.ambiguity > all.ambiguity) {
+    all.ambiguity = more.ambiguity;
+    all.ambiguous_face = more.ambiguous_face;
+  }
+  if (odd == 0) {
+    first_odd = part.first_odd;
+    odd_kind = part.odd_kind;
+  }
+  odd += part.odd;
+}
+
 // Triangulates from one face to another, with as many triangles each.
-Polygons FileMeshBuilder::triangulate(const FileFaces::Run& begin, const FileFaces::Run& end) {
+FileMeshBuilder::Triangulated FileMeshBuilder::triangulate(const FileFaces::Run& begin,
+                                                           const FileFaces::Run& end,
+                                                           const SliverWidth& sliver) {
   const uint32_t each = (end.triangles - begin.triangles) / (end.faces - begin.faces);
-  Polygons found;
+  Triangulated all;
   for (uint32_t i = 0; i < end.faces - begin.faces; ++i) {
     const std::span fan(&faces_[begin.triangles + size_t{i} * each], each);
     if (!is_measurable(fan)) continue;
     const uint64_t face = begin.faces + i;
     PolygonResult result = limits_.triangulate ? limits_.triangulate(face, vertices_, fan)
                                                : triangulate_fan(vertices_, fan);
-    if (result.kind != PolygonKind::kFan)
-      found.triangulations.push_back(of_face(face, each, result));
-    if (result.kind == PolygonKind::kClipped) ++found.clipped;
-    if (has_only_fan(result.kind) && found.fanned++ == 0) {
-      found.first_fanned = face;
-      found.first_kind = result.kind;
+    const bool is_odd = has_only_fan(result.kind) && !sliver.holds(result.ambiguity);
+    if (is_odd && all.odd++ == 0) {
+      all.first_odd = face;
+      all.odd_kind = result.kind;
     }
-    if (result.ambiguity > found.ambiguity) {
-      found.ambiguity = result.ambiguity;
-      found.ambiguous_face = face;
-    }
+    if (is_odd) result.ambiguity = 0;
+    add_polygon(face, each, result, all.polygons);
   }
-  return found;
+  return all;
 }
 
-Polygons FileMeshBuilder::triangulate(const ThreadPool& pool) {
+FileMeshBuilder::Triangulated FileMeshBuilder::triangulate(const ThreadPool& pool) {
   constexpr uint32_t kTriangles = 1 << 15;  // about 3 ms
   std::vector<std::pair<FileFaces::Run, FileFaces::Run>> parts;
   FileFaces::Run before;
@@ -165,24 +232,12 @@ Polygons FileMeshBuilder::triangulate(const ThreadPool& pool) {
     }
     before = run;
   }
-  std::vector<Polygons> found(parts.size());
+  const SliverWidth sliver(vertices_);
+  std::vector<Triangulated> found(parts.size());
   pool.for_each(parts.size(),
-                [&](size_t i) { found[i] = triangulate(parts[i].first, parts[i].second); });
-  Polygons all;
-  for (Polygons& part : found) {
-    std::move(part.triangulations.begin(), part.triangulations.end(),
-              std::back_inserter(all.triangulations));
-    if (all.fanned == 0) {
-      all.first_fanned = part.first_fanned;
-      all.first_kind = part.first_kind;
-    }
-    all.clipped += part.clipped;
-    all.fanned += part.fanned;
-    if (part.ambiguity > all.ambiguity) {
-      all.ambiguity = part.ambiguity;
-      all.ambiguous_face = part.ambiguous_face;
-    }
-  }
+                [&](size_t i) { found[i] = triangulate(parts[i].first, parts[i].second, sliver); });
+  Triangulated all;
+  for (Triangulated& part : found) all.append(std::move(part));
   return all;
 }
 
@@ -205,11 +260,11 @@ void FileMeshBuilder::note_polygons(const Polygons& polygons) {
   notes.back().face = polygons.first_fanned;
 }
 
-void FileMeshBuilder::refuse_odd(const Polygons& polygons) const {
-  if (polygons.fanned == 0 || limits_.odd_polygons == OddPolygons::kFanned) return;
-  std::string what = "an outline that " + what_is_odd(polygons.first_kind);
-  if (polygons.fanned > 1) what += ", the first of " + counted(polygons.fanned, "such face");
-  reject(name_, "face " + std::to_string(polygons.first_fanned), what,
+void FileMeshBuilder::refuse_odd(const Triangulated& found) const {
+  if (found.odd == 0 || limits_.odd_polygons == OddPolygons::kFanned) return;
+  std::string what = "an outline that " + what_is_odd(found.odd_kind);
+  if (found.odd > 1) what += ", the first of " + counted(found.odd, "such face");
+  reject(name_, "face " + std::to_string(found.first_odd), what,
          "a polygon that does not cross itself, or --polygons fan, which measures the fan of its "
          "corners");
 }
@@ -243,8 +298,9 @@ Mesh FileMeshBuilder::finish(const std::string& place, Positions positions) && {
   if (faces_.size() + short_faces_ >= UINT32_MAX)
     reject(name_, place, "too many faces", "fewer than 2^32 - 1");
   const ThreadPool pool = pool_of({.name = name_, .bytes = {}, .limits = limits_});
-  Polygons polygons = triangulate(pool);
-  refuse_odd(polygons);
+  Triangulated found = triangulate(pool);
+  refuse_odd(found);
+  Polygons polygons = std::move(found.polygons);
   Mesh mesh = make_mesh(name_, std::move(vertices_), std::move(faces_), pool, positions);
   mesh.file_faces = std::move(file_faces_);
   mesh.counts.polygons = polygons_;

@@ -76,11 +76,21 @@ class FileMeshBuilder {
     }
     if (++rows_ % kRowsOfTick == 0) check_going(name_, limits_);
   }
-  Polygons triangulate(const ThreadPool& pool);
-  Polygons triangulate(const FileFaces::Run& begin, const FileFaces::Run& end);
+  class SliverWidth;
+  /// What became of polygons; and those with only a fan that are no slivers.
+  struct Triangulated {
+    Polygons polygons;
+    uint64_t odd = 0, first_odd = 0;
+    PolygonKind odd_kind = PolygonKind::kFan;
+
+    void append(Triangulated&& part);
+  };
+  Triangulated triangulate(const ThreadPool& pool);
+  Triangulated triangulate(const FileFaces::Run& begin, const FileFaces::Run& end,
+                           const SliverWidth& sliver);
   bool is_measurable(std::span<const glm::uvec3> faces) const;
   void note_polygons(const Polygons& polygons);
-  void refuse_odd(const Polygons& polygons) const;
+  void refuse_odd(const Triangulated& found) const;
   Mesh finish_points(const std::string& place) &&;
   [[noreturn]] void refuse_no_face(const std::string& place) const;
   [[noreturn]] void refuse_size(uint64_t vertex_count, uint64_t face_count) const;

@@ -110,7 +110,8 @@ class Reader {
 
   void check_pose(const Instance& instance, const MeshEntry& mesh, const Primitive& primitive) {
     if (!primitive.has_targets) return;
-    if (mesh.has_morph_weight || instance.detail->has_morph_weight) {
+    const NodeDetail& node = *instance.detail;
+    if (node.has_weights ? node.has_morph_weight : mesh.has_morph_weight) {
       fail("nodes", instance.node, "morph targets at weights other than 0",
            "a mesh whose pose was applied");
     }
@@ -149,6 +150,7 @@ class Reader {
 
   void add(const Instance& instance) {
     uint32_t last = kNone;
+    is_mirrored_ = instance.map.sign < 0;
     for_primitives(instance, [&](uint32_t number) {
       const Primitive& primitive = model_.primitives[number];
       // Primitives that follow each other share the positions that they have in common.
@@ -207,7 +209,10 @@ class Reader {
     }
   }
 
-  void add_face(uint32_t i, uint32_t j, uint32_t k) { builder_.add_triangle({i, j, k}); }
+  // A mirror turns faces round (specification 2.0, 3.7.4).
+  void add_face(uint32_t i, uint32_t j, uint32_t k) {
+    builder_.add_triangle(is_mirrored_ ? glm::uvec3(i, k, j) : glm::uvec3(i, j, k));
+  }
 
   void add_notes() {
     builder_.notes = scene_.notes();
@@ -230,32 +235,37 @@ class Reader {
   FileMeshBuilder builder_;
   uint64_t faces_ = 0, lines_ = 0, without_positions_ = 0;
   uint32_t most_positions_ = 0, column_ = 0;
-  bool has_targets_ = false;
+  bool has_targets_ = false, is_mirrored_ = false;
   std::vector<bool> noted_;  // meshes whose points and lines were counted
   std::vector<Slot> slots_;
   double delta_ = 0;
 };
 
+constexpr std::string_view kMagic = "glTF";
+
 /// The two chunks of a GLB.
 struct Chunks {
   std::string_view json, binary;
+  uint64_t bytes_behind = 0;  ///< those that its header does not count
 };
 
 Chunks chunks_of(const MeshSource& source) {
   constexpr size_t kHeader = 12, kChunkHeader = 8;
   constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
-  const std::string_view bytes = source.bytes;
+  const std::string_view file = source.bytes;
   const auto fail = [&](size_t at, const std::string& what, const std::string& expected) {
     reject(source.name, "byte " + std::to_string(at), what, expected);
   };
-  if (bytes.size() < kHeader + kChunkHeader) fail(bytes.size(), "the file ends here", "a GLB");
-  const uint32_t version = load<uint32_t>(&bytes[4]), length = load<uint32_t>(&bytes[8]);
+  if (file.size() < kHeader + kChunkHeader) fail(file.size(), "the file ends here", "a GLB");
+  const uint32_t version = load<uint32_t>(&file[4]), length = load<uint32_t>(&file[8]);
   if (version != 2) fail(4, "GLB version " + std::to_string(version), "version 2");
-  if (length != bytes.size()) {
-    fail(8, "a GLB of " + counted(length, "byte") + " in a file of " + std::to_string(bytes.size()),
+  if (length > file.size()) {
+    fail(8, "a GLB of " + counted(length, "byte") + " in a file of " + std::to_string(file.size()),
          "as many bytes as its header says");
   }
-  Chunks chunks;
+  const std::string_view bytes = file.substr(0, length), behind = file.substr(length);
+  if (behind.starts_with(kMagic)) fail(length, "another GLB behind the first", "one GLB a file");
+  Chunks chunks{.json = {}, .binary = {}, .bytes_behind = behind.size()};
   size_t at = kHeader;
   while (at < bytes.size()) {
     if (bytes.size() - at < kChunkHeader) fail(at, "half a chunk's header", "whole chunks");
@@ -283,10 +293,15 @@ std::string json_of_glb(const MeshSource& source) {
 }
 
 Mesh read_whole(const MeshSource& source) {
-  const bool is_glb = source.bytes.starts_with("glTF");
+  const bool is_glb = source.bytes.starts_with(kMagic);
   const Chunks chunks = is_glb ? chunks_of(source) : Chunks{.json = source.bytes, .binary = {}};
   const Model model = read_model(source, chunks.json);
-  return Reader(source, model, chunks.binary).read();
+  Mesh mesh = Reader(source, model, chunks.binary).read();
+  if (chunks.bytes_behind > 0) {
+    mesh.notes.push_back(note_of(NoteCode::kUnread, counted(chunks.bytes_behind, "byte") +
+                                                        " behind the GLB's own length ignored"));
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -295,7 +310,7 @@ Mesh read_whole(const MeshSource& source) {
 Mesh parse_gltf(const MeshSource& source) { return in_memory(source, gltf::read_whole); }
 
 std::vector<FileBeneath> files_of_gltf(const MeshSource& source) {
-  const bool is_glb = head_of(source, 4) == "glTF";
+  const bool is_glb = head_of(source, 4) == gltf::kMagic;
   const std::string json = is_glb ? gltf::json_of_glb(source) : read_all(source);
   MeshSource document = source;
   document.bytes = json;

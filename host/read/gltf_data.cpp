@@ -226,7 +226,7 @@ std::string_view Data::unpacked(uint32_t number) {
   const char* wrong = unpack_problem(packed);
   if (wrong == nullptr && unpacked_bytes(packed) != model_.views[number].length)
     wrong = "count and byteStride differ from byteLength";
-  if (wrong != nullptr) fail(place, wrong, "what EXT_meshopt_compression allows");
+  if (wrong != nullptr) fail(place, wrong, "what meshopt compression allows");
   spend(unpacked_bytes(packed), place);
   std::vector<char>& out = unpacked_[number];
   if (!unpack(packed, from, out))

@@ -15,17 +15,6 @@
 namespace vkh::gltf {
 namespace {
 
-/// These leave a document's shape alone: they are about materials, textures, lights and notes.
-bool is_known(std::string_view extension) {
-  for (const std::string_view prefix : {"KHR_materials_", "KHR_texture_", "EXT_texture_",
-                                        "KHR_lights_", "EXT_lights_", "KHR_xmp", "MSFT_texture_"}) {
-    if (extension.starts_with(prefix)) return true;
-  }
-  // Nothing is animated: a mesh is read as it stands.
-  return extension == "KHR_mesh_quantization" || extension == "EXT_meshopt_compression" ||
-         extension == "KHR_node_visibility" || extension == "KHR_animation_pointer";
-}
-
 /// The number of a name among names; the last stands for any other.
 template <class T, size_t kCount>
 T named(const std::array<std::string_view, kCount>& names, std::string_view name) {
@@ -151,7 +140,7 @@ bool Handler::string(std::string& value) {
   if (is_skipped()) return true;
   const Holds holds = top().member->holds;
   if (holds == Holds::kStrings && top().in_array) {
-    if (is_known(value)) return true;
+    if (is_read(value)) return true;
     fail(vkh::quoted(value) + " is required, which is not read", "a file that does without");
   }
   if (holds != Holds::kString) fail_type();
@@ -286,7 +275,7 @@ void Handler::end(Is is) {
     case Is::kMeshopt:
       return require(model.packed.back().buffer != kNone && model.packed.back().count > 0 &&
                          model.packed.back().stride > 0,
-                     "EXT_meshopt_compression without buffer, count or byteStride");
+                     "meshopt compression without buffer, count or byteStride");
     case Is::kBuffer:
       return require(model.buffers.back().length > 0, "a buffer without byteLength");
     default:
@@ -314,6 +303,7 @@ void Handler::take_number(double value, std::optional<uint64_t> whole) {
       m.indices.push_back(narrow(*whole));
       break;
     case Numbers::kNodeWeights:
+      detail_of_last(m).has_weights = true;
       detail_of_last(m).has_morph_weight |= value != 0;
       break;
     case Numbers::kMeshWeights:

@@ -180,6 +180,7 @@ inline constexpr Member kMembers[] = {
     index(Is::kView, "byteStride", [](Model& m, uint64_t x) { m.views.back().stride = narrow(x); }),
     object(Is::kView, "extensions", Is::kViewExtensions),
     object(Is::kViewExtensions, "EXT_meshopt_compression", Is::kMeshopt),
+    object(Is::kViewExtensions, "KHR_meshopt_compression", Is::kMeshopt),
     index(Is::kMeshopt, "buffer", [](Model& m, uint64_t x) { m.packed.back().buffer = narrow(x); }),
     size(Is::kMeshopt, "byteOffset", [](Model& m, uint64_t x) { m.packed.back().offset = x; }),
     size(Is::kMeshopt, "byteLength", [](Model& m, uint64_t x) { m.packed.back().length = x; }),

@@ -26,6 +26,7 @@ struct NodeDetail {
   uint32_t placing = kNone;
   bool is_hidden = false;         ///< KHR_node_visibility: hidden with all below it
   bool instances = false;         ///< EXT_mesh_gpu_instancing
+  bool has_weights = false;       ///< which override the mesh's
   bool has_morph_weight = false;  ///< a weight that is not 0
 };
 
@@ -70,7 +71,7 @@ struct Accessor {
 enum class Filter : uint8_t { kPlain, kOctahedral, kQuaternion, kExponential, kUnknown };
 enum class Packing : uint8_t { kAttributes, kTriangles, kIndices, kUnknown };
 
-/// EXT_meshopt_compression for a view.
+/// EXT_meshopt_compression for a view, or KHR_meshopt_compression, which has more codecs.
 struct Packed {
   uint64_t offset = 0, length = 0;
   uint32_t buffer = kNone, count = 0, stride = 0;
@@ -110,6 +111,9 @@ struct Model {
 /// Reads the JSON of a document; `json` lies in source.bytes. Rejects a document that is no glTF 2,
 /// that has a thing twice, or that asks for an extension that is not known here.
 Model read_model(const MeshSource& source, std::string_view json);
+
+/// Whether a document may require that extension: it is read, or leaves its triangles alone.
+bool is_read(std::string_view extension);
 
 /// Returns "accessors[3]": the place that an error names.
 std::string place_of(const char* list, size_t index);

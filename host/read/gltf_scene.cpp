@@ -135,13 +135,13 @@ scene::Affine Scene::map_of(uint32_t node) const {
   if (!scene::is_identity(*map)) fail(node, "a matrix beside its parts", "one or the other");
   std::array<double, 16> columns{};
   copy(parts.matrix, columns);
-  scene::Affine given;
+  scene::Affine::Rows given{};
   for (size_t r = 0; r < 3; ++r) {
-    for (size_t c = 0; c < 4; ++c) given.m[r][c] = columns[4 * c + r];
+    for (size_t c = 0; c < 4; ++c) given[r][c] = columns[4 * c + r];
   }
   if (columns[3] != 0 || columns[7] != 0 || columns[11] != 0 || columns[15] != 1)
     fail(node, "a matrix that is not affine", "0, 0, 0, 1 in its last row");
-  return given;
+  return scene::affine_of(given);
 }
 
 void Scene::for_each(const std::function<void(const Instance&)>& use) const {

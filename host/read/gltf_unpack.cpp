@@ -44,7 +44,7 @@ bool fits_packing(const Packed& packed) {
 // index: nothing grows more than 64 times.
 const char* unpack_problem(const Packed& packed) {
 #ifndef VKH_HAS_MESHOPTIMIZER
-  return "EXT_meshopt_compression: this program was built without libmeshoptimizer-dev";
+  return "meshopt compression: this program was built without libmeshoptimizer-dev";
 #endif
   if (!fits_packing(packed) || !fits_filter(packed))
     return "mode, filter, count or byteStride that do not go together";

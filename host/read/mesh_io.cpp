@@ -89,7 +89,7 @@ Parse parser_by_content(std::string_view head, uint64_t size) {
   const std::string_view word = scanner.word();
   if (word == "ply") return parse_ply;
   if (is_off_keyword(word)) return parse_off;
-  if (lower_case(word) == "solid") return parse_stl;
+  if (lower_case(word) == "solid" || lower_case(word) == "facet") return parse_stl;
   if (word.starts_with('{')) return parse_gltf;
   return nullptr;
 }

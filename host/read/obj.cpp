@@ -5,7 +5,6 @@
 // indices go through atoi, which wraps 2^32+3 to 3; continued lines and '2/2/' are refused.
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
@@ -18,14 +17,15 @@ namespace {
 
 constexpr const char* kIndexForms = "a vertex index such as 7, 7/1, 7//1 or 7/1/1";
 
-// Every keyword of the format, so that no face is lost in silence. v and f are read. A line that
+// Every keyword of the format, so that no face is lost in silence. v and f are read, and fo, the
+// first versions' f, which the format reads as f. A line that
 // moves no point of a surface is skipped: names, groups, display, materials, texture coordinates,
 // normals, tinyobj's bone weights and tags (vw, t), materials that were pasted in and colours
 // (newmtl to vc), and the words that only describe a curve or a free-form surface. A line that is
 // no triangle mesh is noted: points, lines and curves; free-form surfaces, which we do not read;
 // files and commands that are called; lines that begin with $ or //, as programs write remarks that
-// OBJ has no sign for. Any other word is refused: F, fo (the first versions' f), V, a keyword
-// misspelt or glued to something, text.
+// OBJ has no sign for. Any other word is refused: F, V, a keyword misspelt or glued to something,
+// text.
 enum class Line { kVertex, kFace, kSkipped, kElement, kSurface, kCall, kRemark, kUnknown };
 
 // A line of a material library (MTL), as some exporters paste it into the mesh: those that name a
@@ -53,7 +53,7 @@ Line kind_of(std::string_view keyword) {
     return std::find(words.begin(), words.end(), keyword) != words.end();
   };
   if (keyword == "v") return Line::kVertex;
-  if (keyword == "f") return Line::kFace;
+  if (keyword == "f" || keyword == "fo") return Line::kFace;
   if (is_in(kSkipped)) return Line::kSkipped;
   if (is_in(kElements)) return Line::kElement;
   if (is_in(kSurfaces)) return Line::kSurface;
@@ -84,15 +84,6 @@ struct Ignored {
     remarks += more.remarks;
   }
 };
-
-// C libraries print a float that is no number, or infinite, as nan, -nan(ind), 1.#QNAN or inf.
-bool is_printed_nan(std::string_view word) {
-  if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
-  if (word.starts_with("1.#")) return true;
-  std::string lower(word.substr(0, 3));
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower == "nan" || lower == "inf";
-}
 
 class ObjReader {
  public:
@@ -191,7 +182,7 @@ class ObjReader {
   // Reads x y z, then perhaps a weight or a colour: checked to be numbers, not used.
   void read_vertex() {
     glm::dvec3 p{};
-    for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.number<double>("coordinate");
+    for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.coordinate();
     double unused = 0;
     size_t behind = 0;
     std::string_view nan;

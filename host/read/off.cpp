@@ -121,8 +121,7 @@ class RowReader {
   void read_vertex(uint64_t v) {
     begin_row("vertex", v, counts_.vertices);
     glm::dvec3 p{};
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = scanner_.number_in<double>(next_word(), "coordinate");
+    for (int axis = 0; axis < 3; ++axis) p[axis] = scanner_.coordinate_in(next_word());
     builder_.add_vertex(p);
     check_wrapped("vertex", v);
     uint64_t words = 3;

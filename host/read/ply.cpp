@@ -21,15 +21,15 @@ namespace {
 
 using namespace ply;
 
-/// The number of lines, and the first of them.
-struct Lines {
-  uint64_t count = 0;
-  size_t first = 0;
+/// What a row holds, for what may stand behind it in a text.
+enum class Row { kVertex, kFace, kOther };
 
-  void add(size_t line) {
-    if (count++ == 0) first = line;
-  }
-};
+void note_lines(const Lines& lines, const char* text, FileMeshBuilder& builder) {
+  if (lines.count == 0) return;
+  builder.notes.push_back(note_of(
+      NoteCode::kUnread,
+      counted(lines.count, "line") + text + ", the first is line " + std::to_string(lines.first)));
+}
 
 // The two bodies give one row's values after another. In ASCII, a row is a line, and a line that
 // begins with 'comment' is none.
@@ -46,12 +46,13 @@ class AsciiBody {
                   std::to_string(element.count) + " of them");
   }
   // Words behind a face's corners change nothing: rows are lines, and each list has its own length.
-  // Behind a vertex's coordinates they may be one of them, of a row that begins with something
-  // else; and a row of another element may be a face, where counts are wrong.
-  void end_row(bool is_face) {
+  // Behind a vertex's properties as many stand in each row, or a row is a face that wrong counts
+  // make a vertex; and a row of another element may be a face, too.
+  void end_row(Row row) {
+    if (row == Row::kVertex) return end_vertex();
     const auto word = scanner_.word();
     if (word.empty()) return;
-    if (!is_face)
+    if (row == Row::kOther)
       scanner_.fail(quoted(word) + " after the line's last property", "the end of the line");
     longer_.add(scanner_.line_number());
   }
@@ -67,13 +68,15 @@ class AsciiBody {
   // A float column is kept as written. A value that its type cannot hold at all contradicts the
   // header.
   double real(Scalar type, const char* what) {
-    constexpr double kBeyondFloat = 0x1.ffffffp127;  // rounds to infinity
     if (is_integer(type)) return static_cast<double>(integer(type));
     const auto value = scanner_.number<double>(what);
-    if (type == Scalar::kFloat && std::abs(value) >= kBeyondFloat) {
-      fail(std::string("a ") + what + " beyond its column's type, float",
-           "less than 3.5e38, or type double");
-    }
+    if (type == Scalar::kFloat) check_float(value, what);
+    return value;
+  }
+  double coordinate(Scalar type) {
+    if (type != Scalar::kDouble && type != Scalar::kFloat) return real(type, "coordinate");
+    const double value = scanner_.coordinate();
+    if (type == Scalar::kFloat) check_float(value, "coordinate");
     return value;
   }
   void skip(Scalar, uint64_t count) {
@@ -90,9 +93,12 @@ class AsciiBody {
   void read_rest(FileMeshBuilder& builder) {
     note_lines(comments_, " of comment in the body ignored", builder);
     note_lines(longer_, " with words behind a face's properties, which were ignored", builder);
+    note_lines(longer_vertices_, " with words behind a vertex's properties, which were ignored",
+               builder);
     note_rest(scanner_, builder.notes);
   }
-  bool has_notes() const { return comments_.count + longer_.count > 0; }
+  bool has_notes() const { return comments_.count + longer_.count + longer_vertices_.count > 0; }
+  bool has_longer_vertices() const { return longer_vertices_.count > 0; }
 
   static constexpr bool kRowsAreLines = true;
 
@@ -104,15 +110,27 @@ class AsciiBody {
     return word == "comment" || word == "obj_info";
   }
 
-  static void note_lines(const Lines& lines, const char* text, FileMeshBuilder& builder) {
-    if (lines.count == 0) return;
-    builder.notes.push_back(note_of(NoteCode::kUnread, counted(lines.count, "line") + text +
-                                                           ", the first is line " +
-                                                           std::to_string(lines.first)));
+  void end_vertex() {
+    uint64_t words = 0;
+    while (!scanner_.word().empty()) ++words;
+    if (!words_behind_) words_behind_ = words;
+    if (words != *words_behind_) {
+      scanner_.fail(counted(words, "word") + " behind the vertex's last property",
+                    std::to_string(*words_behind_) + ", as in the first");
+    }
+    if (words > 0) longer_vertices_.add(scanner_.line_number());
+  }
+
+  void check_float(double value, const char* what) const {
+    constexpr double kBeyondFloat = 0x1.ffffffp127;  // rounds to infinity
+    if (!(std::abs(value) >= kBeyondFloat)) return;
+    fail(std::string("a ") + what + " beyond its column's type, float",
+         "less than 3.5e38, or type double");
   }
 
   TextScanner& scanner_;
-  Lines comments_, longer_;
+  Lines comments_, longer_, longer_vertices_;
+  std::optional<uint64_t> words_behind_;  ///< each vertex of those that were read
 };
 
 template <std::endian kOrder>
@@ -125,9 +143,10 @@ class BinaryBody {
     element_ = &element;
     row_ = row;
   }
-  void end_row(bool) const {}
+  void end_row(Row) const {}
   int64_t integer(Scalar type) { return value<int64_t>(type); }
   double real(Scalar type, const char*) { return value<double>(type); }
+  double coordinate(Scalar type) { return value<double>(type); }
   void skip(Scalar type, uint64_t count) {
     if (count > room(type)) fail_end();
     at_ += count * size_of(type);
@@ -216,20 +235,30 @@ class BodyReader {
       for (uint64_t row = std::max(begin, before); row < stop; ++row) {
         body_.begin_row(element, row - before);
         read_row(element);
-        body_.end_row(&element == layout_.face && corners_.size() > 2);
+        body_.end_row(row_of(element));
       }
       before += element.count;
     }
   }
 
   Body& body() { return body_; }
+  /// Triangles of strips that were left out.
+  uint64_t stitches() const { return stitches_; }
 
  private:
+  Row row_of(const Element& element) const {
+    if (&element == layout_.vertex) return Row::kVertex;
+    const bool has_corners = &element == layout_.face || &element == layout_.strips;
+    return has_corners && corners_.size() > 2 ? Row::kFace : Row::kOther;
+  }
+
   void read_row(const Element& element) {
     if (&element == layout_.vertex) {
       read_vertex();
     } else if (&element == layout_.face) {
       read_face();
+    } else if (&element == layout_.strips) {
+      read_strips();
     } else {
       for (const Property& property : element.properties) skip_property(body_, property);
     }
@@ -242,7 +271,7 @@ class BodyReader {
       const auto& axes = layout_.axes;
       const auto axis = std::find(axes.begin(), axes.end(), i) - axes.begin();
       if (axis < 3) {
-        p[static_cast<int>(axis)] = body_.real(properties[i].type, "coordinate");
+        p[static_cast<int>(axis)] = body_.coordinate(properties[i].type);
       } else {
         skip_property(body_, properties[i]);
       }
@@ -251,18 +280,22 @@ class BodyReader {
   }
 
   void read_face() {
-    const std::vector<Property>& properties = layout_.face->properties;
-    for (size_t i = 0; i < properties.size(); ++i) {
-      if (i == layout_.corners) {
-        read_corners(properties[i]);
-      } else {
-        skip_property(body_, properties[i]);
-      }
-    }
+    read_corners(*layout_.face, layout_.corners, false);
     builder_.add_face(corners_);
   }
 
-  void read_corners(const Property& list) {
+  // Reads the corners of one row, which stand in one of its properties.
+  void read_corners(const Element& element, size_t corners, bool may_break) {
+    for (size_t i = 0; i < element.properties.size(); ++i) {
+      if (i == corners) {
+        read_list(element.properties[i], may_break);
+      } else {
+        skip_property(body_, element.properties[i]);
+      }
+    }
+  }
+
+  void read_list(const Property& list, bool may_break) {
     corners_.clear();
     const uint64_t count = read_list_count(body_, list);
     // If one vertex too many or too few is announced, the zeros of an index are read as a count.
@@ -271,20 +304,55 @@ class BodyReader {
     }
     for (uint64_t left = count; left > 0; --left) {
       const int64_t index = body_.integer(list.type);
-      if (index < 0 || static_cast<uint64_t>(index) >= layout_.vertex->count) {
+      if (index >= 0 && static_cast<uint64_t>(index) < layout_.vertex->count) {
+        corners_.push_back(static_cast<uint32_t>(index));
+      } else if (may_break && (index == -1 || is_unsigned_break(list.type, index))) {
+        corners_.push_back(kBreak);
+      } else {
         body_.fail("index " + std::to_string(index) + " of " +
                        std::to_string(layout_.vertex->count) + " vertices",
                    "0 or more and below that count");
       }
-      corners_.push_back(static_cast<uint32_t>(index));
     }
   }
+
+  // -1 as a column of unsigned integers holds it.
+  static bool is_unsigned_break(Scalar type, int64_t index) {
+    const auto [least, greatest] = range_of(type);
+    return least == 0 && index == greatest;
+  }
+
+  // Strips follow each other in a row, parted by -1. Every other triangle of a strip is turned
+  // round.
+  void read_strips() {
+    read_corners(*layout_.strips, layout_.strip_corners, true);
+    size_t begin = 0;
+    for (size_t i = 0; i < corners_.size(); ++i) {
+      if (corners_[i] == kBreak) begin = i + 1;
+      if (i < begin + 2) continue;
+      const bool is_turned = (i - begin) % 2 != 0;
+      add_of_strip(
+          {corners_[i - (is_turned ? 1 : 2)], corners_[i - (is_turned ? 2 : 1)], corners_[i]});
+    }
+  }
+
+  // A corner twice in a row leads from one part of a strip to another, and is no surface.
+  void add_of_strip(const glm::uvec3& face) {
+    if (face.x == face.y || face.y == face.z || face.z == face.x) {
+      ++stitches_;
+    } else {
+      builder_.add_triangle(face);
+    }
+  }
+
+  static constexpr uint32_t kBreak = UINT32_MAX;  ///< no vertex has this number
 
   const Header& header_;
   const Layout& layout_;
   Body body_;
   FileMeshBuilder& builder_;
   std::vector<uint32_t> corners_;
+  uint64_t stitches_ = 0;
 };
 
 /// Reads a scalar of each face; all else is passed over.
@@ -304,11 +372,24 @@ std::vector<double> read_scalar(const Header& header, const Layout& layout, size
           skip_property(body, element.properties[i]);
         }
       }
-      body.end_row(is_face);
+      body.end_row(&element == layout.vertex ? Row::kVertex : is_face ? Row::kFace : Row::kOther);
     }
     if (is_face) break;
   }
   return values;
+}
+
+// Words behind the vertices may be the last coordinate, of rows that begin with their number.
+void check_not_numbered(const Layout& layout, const FileMeshBuilder& builder) {
+  const std::vector<glm::dvec3>& vertices = builder.vertices();
+  if (layout.axes[0] != 0 || vertices.size() < 3) return;
+  const double first = vertices[0].x;
+  for (size_t i = 0; i < vertices.size(); ++i) {
+    if (vertices[i].x != first + static_cast<double>(i)) return;
+  }
+  reject(builder.name(), layout.vertex->place(),
+         "rows that begin with their number, which no property says",
+         "a property for it before x, or rows without it");
 }
 
 template <class Body>
@@ -320,8 +401,18 @@ Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scan
   reader.emplace(header, layout, Body(scanner, source), builder);
   reader->read(0, UINT64_MAX);
   Body body = reader->body();
+  const uint64_t stitches = reader->stitches();
   reader.reset();  // its memory is free before more is taken
   const std::string place = body.place();
+  note_lines(header.remarks, " before the format ignored", builder);
+  if (stitches > 0) {
+    builder.notes.push_back(
+        note_of(NoteCode::kUnread,
+                counted(stitches, "triangle") + " of strips with a corner twice ignored"));
+  }
+  if constexpr (Body::kRowsAreLines) {
+    if (body.has_longer_vertices()) check_not_numbered(layout, builder);
+  }
   body.read_rest(builder);
   return std::move(builder).finish(place);
 }
@@ -349,7 +440,7 @@ Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64
   blocks.for_each(row_count, [&](size_t i, const Rows& rows) {
     BodyReader reader(header, layout, AsciiBody(rows.scanner, source), builders[i]);
     reader.read(rows.begin, rows.end);
-    if (reader.body().has_notes())  // they have lines of the whole file
+    if (reader.body().has_notes() || reader.stitches() > 0)  // they are of the whole file
       reject(source.name, "byte 0", "lines beside the rows", "none");
   });
   return FileMeshBuilder::joined(source, std::move(builders)).finish("byte 0");
@@ -362,6 +453,7 @@ Mesh read_ply_by_blocks(const MeshSource& source) {
   TextScanner scanner(head, source.name);
   const Header header = read_header(scanner, source);
   check_header_ends(scanner, source);
+  if (header.remarks.count > 0) reject(source.name, "byte 0", "remarks in the header", "none");
   if (header.encoding == Encoding::kAscii)
     return read_ascii_by_blocks(header, source, scanner.offset());
   return read_binary_by_blocks(header, source, scanner.offset());

@@ -91,6 +91,7 @@ class BlockReader {
   uint64_t read_element(const Element& element, uint64_t begin) {
     if (&element == layout_.vertex) return read_vertices(begin);
     if (&element == layout_.face) return read_faces(begin);
+    if (&element == layout_.strips) refuse(source_);
     if (const uint64_t bytes = fixed_row_bytes(element)) {
       check_end(begin, element.count, bytes);
       return begin + element.count * bytes;

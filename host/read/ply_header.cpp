@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "host/base/reject.h"
 #include "vkhausdorff/note.h"
 
 namespace vkh::ply {
 namespace {
+
+// The element of triangle strips, as Stanford's scans have them.
+constexpr std::string_view kStrips = "tristrips";
 
 Scalar read_type(TextScanner& scanner) {
   constexpr std::array<std::string_view, 16> kNames = {
@@ -67,10 +71,24 @@ void expect_line_end(TextScanner& scanner) {
   }
 }
 
-// Reads one line after the first; false at end_header.
+// Recognises a keyword in other letters, or misspelt behind its beginning: no remark.
+bool is_like_keyword(std::string_view word) {
+  std::string lower(word);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  constexpr std::array<std::string_view, 4> kBegins = {"format", "element", "property", "end"};
+  return std::any_of(kBegins.begin(), kBegins.end(),
+                     [&](std::string_view begin) { return lower.starts_with(begin); });
+}
+
+// Reads one line after the first; false at end_header. Before the format, which announces all else,
+// a line that begins with no keyword says who wrote the file.
 bool parse_line(TextScanner& scanner, Header& header, bool& has_format) {
   const std::string_view word = scanner.word();
-  if (word == "comment" || word == "obj_info") return true;
+  if (word.empty() || word == "comment" || word == "obj_info") return true;
+  if (!has_format && header.elements.empty() && !is_like_keyword(word)) {
+    header.remarks.add(scanner.line_number());
+    return true;
+  }
   if (word == "format") {
     if (has_format) scanner.fail("a second format line", "one");
     header.encoding = read_encoding(scanner);
@@ -136,12 +154,12 @@ bool is_corner_list(const Property& property) {
          std::find(kCornerLists.begin(), kCornerLists.end(), property.name) != kCornerLists.end();
 }
 
-// Triangle strips (in Stanford's scans) and the like: measuring only the faces beside them would
-// certify a part of the model. Edges have corners, but no area.
+// Polygons of other names, grids and the like: measuring only the faces beside them would certify a
+// part of the model. Edges have corners, but no area.
 void check_no_other_faces(const Header& header, const MeshSource& source) {
   for (const Element& element : header.elements) {
-    if (element.count == 0 || element.name == "face" || element.name == "edge") continue;
-    if (element.name != "tristrips" &&
+    if (element.count == 0 || element.name == "face" || element.name == kStrips ||
+        element.name == "edge" ||
         std::none_of(element.properties.begin(), element.properties.end(), is_corner_list)) {
       continue;
     }
@@ -151,24 +169,22 @@ void check_no_other_faces(const Header& header, const MeshSource& source) {
   }
 }
 
-// The element of that name; rejects none and several.
-const Element& only_element(const Header& header, const MeshSource& source,
-                            const std::string& name) {
+// The element of that name, or null; rejects several.
+const Element* element_of(const Header& header, const MeshSource& source, std::string_view name) {
   const Element* only = nullptr;
   for (const Element& element : header.elements) {
     if (element.name != name) continue;
     if (only) reject(source.name, element.place(), "a second element " + vkh::quoted(name), "one");
     only = &element;
   }
-  if (!only)
-    reject(source.name, header.end_place, "a header without element " + vkh::quoted(name), "one");
-  return *only;
+  return only;
 }
 
 void check_has_faces(const Header& header, const MeshSource& source, uint64_t points) {
   const auto& elements = header.elements;
-  const bool has = std::any_of(elements.begin(), elements.end(),
-                               [](const Element& element) { return element.name == "face"; });
+  const bool has = std::any_of(elements.begin(), elements.end(), [](const Element& element) {
+    return element.name == "face" || (element.name == kStrips && element.count > 0);
+  });
   if (!has)
     reject(source.name, header.end_place, counted(points, "point") + " and no element 'face'",
            kAMesh);
@@ -176,8 +192,10 @@ void check_has_faces(const Header& header, const MeshSource& source, uint64_t po
 
 void check_has_no_faces(const Header& header, const MeshSource& source) {
   for (const Element& element : header.elements) {
-    if (element.name == "face" && element.count > 0)
-      reject(source.name, element.place(), counted(element.count, "face") + " in a file of points",
+    if ((element.name == "face" || element.name == kStrips) && element.count > 0)
+      reject(source.name, element.place(),
+             counted(element.count, element.name == "face" ? "face" : "strip") +
+                 " in a file of points",
              kPointsAlone);
   }
 }
@@ -232,12 +250,15 @@ Header read_header(TextScanner& scanner, const MeshSource& source) {
 
 Layout layout_of(const Header& header, const MeshSource& source) {
   Layout layout;
-  layout.vertex = &only_element(header, source, "vertex");
+  layout.vertex = element_of(header, source, "vertex");
+  if (layout.vertex == nullptr)
+    reject(source.name, header.end_place, "a header without element 'vertex'", "one");
   if (source.limits.points) {
     check_has_no_faces(header, source);
   } else {
     check_has_faces(header, source, layout.vertex->count);
-    layout.face = &only_element(header, source, "face");
+    layout.face = element_of(header, source, "face");
+    layout.strips = element_of(header, source, kStrips);
   }
   const auto axis = [&](std::string_view name) {
     return only_property(*layout.vertex, source, {&name, 1}, false);
@@ -245,12 +266,17 @@ Layout layout_of(const Header& header, const MeshSource& source) {
   layout.axes = {axis("x"), axis("y"), axis("z")};
   if (layout.face != nullptr)
     layout.corners = only_property(*layout.face, source, kCornerLists, true);
+  if (layout.strips != nullptr)
+    layout.strip_corners = only_property(*layout.strips, source, kCornerLists, true);
   if (layout.vertex->count >= UINT32_MAX)
     reject(source.name, layout.vertex->place(), "too many vertices", "fewer than 2^32 - 1");
   return layout;
 }
 
 size_t face_scalar(const Layout& layout, const MeshSource& source, std::string_view name) {
+  if (layout.face == nullptr)
+    reject(source.name, layout.strips->place(), "strips, whose triangles have no properties",
+           "all faces in element 'face'");
   return only_property(*layout.face, source, {&name, 1}, false);
 }
 

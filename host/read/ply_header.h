@@ -35,8 +35,19 @@ struct Element {
   std::string place() const { return "line " + std::to_string(line); }
 };
 
+/// The number of lines, and the first of them.
+struct Lines {
+  uint64_t count = 0;
+  size_t first = 0;
+
+  void add(size_t line) {
+    if (count++ == 0) first = line;
+  }
+};
+
 struct Header {
   Encoding encoding{};
+  Lines remarks;  ///< between the magic and the format: a program's name, a date
   std::deque<Element> elements;
   std::string end_place;  ///< the line of end_header
 };
@@ -66,15 +77,17 @@ Header read_header(TextScanner& scanner, const MeshSource& source);
 /// The parts of a body that are read.
 struct Layout {
   const Element* vertex = nullptr;
-  const Element* face = nullptr;  ///< null for points
+  const Element* face = nullptr;    ///< null for points, and where strips stand alone
+  const Element* strips = nullptr;  ///< null where there are none
 
   uint64_t face_count() const { return face != nullptr ? face->count : 0; }
   std::array<size_t, 3> axes{};  ///< properties in `vertex`
   size_t corners = 0;            ///< the property in `face`
+  size_t strip_corners = 0;      ///< that in `strips`
 };
 
-/// Rejects a header that lacks one of each, or has one of the wrong kind; and, of points, one that
-/// has faces.
+/// Rejects a header that lacks vertices, or faces and strips, or has one of the wrong kind; and, of
+/// points, one that has faces.
 Layout layout_of(const Header& header, const MeshSource& source);
 
 /// The property of `layout.face` of that name; rejects none, several and a list.

@@ -84,12 +84,31 @@ uint64_t checked_count(const MeshSource& source) {
   return count;
 }
 
-// Recognises a date, a name, a version: what exporters sign with. It is no triangle, but digits
-// make floats.
-bool is_signature(std::string_view rest) {
-  const auto printable = [](char c) { return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r'); };
-  return std::all_of(rest.begin(), rest.end(), printable) &&
-         rest.find("vertex") == std::string_view::npos;
+bool is_printable(std::string_view text) {
+  return std::all_of(text.begin(), text.end(),
+                     [](char c) { return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r'); });
+}
+
+// Whether text holds a word of a facet, in any case of letters.
+bool has_facets(std::string_view text) {
+  const auto has = [&](std::string_view word) {
+    return std::search(text.begin(), text.end(), word.begin(), word.end(), [](char a, char b) {
+             return std::tolower(static_cast<unsigned char>(a)) == b;
+           }) != text.end();
+  };
+  return has("facet") || has("vertex");
+}
+
+// Another solid would be a part of the model, as another binary file or as text.
+void refuse_another_solid(std::string_view rest, uint64_t begin, const std::string& name) {
+  constexpr const char* kOne = "one solid a file, or all of them as text";
+  if (has_facets(rest))
+    reject(name, byte_place(begin), "a text solid after the last binary triangle", kOne);
+  const bool is_binary = rest.size() >= kHeaderBytes && announced_triangles(rest) > 0 &&
+                         announced_triangles(rest) <= (rest.size() - kHeaderBytes) / kTriangleBytes;
+  if (is_binary)
+    reject(name, byte_place(begin), "a second binary STL after the last triangle of the first",
+           kOne);
 }
 
 // Checks for three different corners, none of them a million times farther out than the mesh;
@@ -110,12 +129,14 @@ bool looks_like_triangle(const char* at, double mesh_size) {
 // the model.
 void check_rest(std::string_view rest, uint64_t begin, FileMeshBuilder& builder) {
   if (rest.empty()) return;
+  refuse_another_solid(rest, begin, builder.name());
   double mesh_size = 0;
   for (const glm::dvec3& v : builder.vertices()) {
     const glm::dvec3 p = glm::abs(v);
     mesh_size = std::max({mesh_size, p.x, p.y, p.z});
   }
-  const bool may_be_binary = !is_signature(rest);
+  // A date, a name, a version: exporters sign so, and digits make floats.
+  const bool may_be_binary = !is_printable(rest);
   for (size_t at = 0; may_be_binary && at + kTriangleBytes <= rest.size(); ++at) {
     if (!looks_like_triangle(rest.data() + at, mesh_size)) continue;
     reject(builder.name(), byte_place(begin + at), "a triangle after the last one announced",
@@ -228,6 +249,21 @@ bool is_word(std::string_view word, std::string_view lower) {
   });
 }
 
+// STL has no sign for remarks: these are others'.
+bool is_remark(std::string_view word) {
+  return word.starts_with('#') || word.starts_with("//") || word.starts_with(';') ||
+         word.starts_with('!');
+}
+
+/// What is beside the facets, for notes.
+struct Beside {
+  uint64_t remarks = 0;
+  size_t first_remark = 0;   ///< its line
+  bool lacks_solid = false;  ///< the text begins with a facet
+
+  bool is_any() const { return remarks > 0 || lacks_solid; }
+};
+
 // `Use` receives each corner and the end of each facet.
 template <class Use>
 class AsciiReader {
@@ -238,10 +274,7 @@ class AsciiReader {
   // A block that is not the first begins inside a solid, at a facet; one that is not the last ends
   // so. The text before and behind it is then one with it.
   void read() {
-    if (block_.is_first) {
-      expect({"solid"});
-      skip_name();
-    }
+    if (block_.is_first) open_first();
     while (read_solid()) {
       skip_name();
       if (!another_solid()) return;
@@ -250,6 +283,7 @@ class AsciiReader {
   }
 
   std::string place() const { return scanner_.place(); }
+  const Beside& beside() const { return beside_; }
 
  private:
   static constexpr const char* kFacetOrEnd = "'facet' or 'endsolid'";
@@ -262,12 +296,38 @@ class AsciiReader {
     }
   }
 
+  // Reads to the first solid's name, or its first facet.
+  void open_first() {
+    const std::string_view word = next_word();
+    if (is_word(word, "solid")) return skip_name();
+    if (!is_word(word, "facet")) fail_word(word, "'solid', as text STL begins, or a binary STL");
+    beside_.lacks_solid = true;
+    read_facet();
+  }
+
+  // The next word, across lines and remarks.
+  std::string_view next_word() {
+    std::string_view word = scanner_.word_across_lines();
+    for (; is_remark(word); word = scanner_.word_across_lines()) {
+      if (beside_.remarks++ == 0) beside_.first_remark = scanner_.line_number();
+      scanner_.skip_line();
+    }
+    return word;
+  }
+
+  // "endsolid", to which a name may be glued, or "end solid".
+  bool is_end_of_solid(std::string_view word) {
+    if (!is_word(word, "end")) return is_word(word.substr(0, 8), "endsolid");
+    expect({"solid"});
+    return true;
+  }
+
   /// Returns false if the block ends inside it.
   bool read_solid() {
     for (;;) {
-      const std::string_view word = scanner_.word_across_lines();
-      if (is_word(word.substr(0, 8), "endsolid")) return true;  // its name may be glued to it
-      if (word.empty() && !block_.is_last) return false;
+      const std::string_view word = next_word();
+      if (is_end_of_solid(word)) return true;
+      if (word.empty() && (!block_.is_last || beside_.lacks_solid)) return false;
       if (is_word(word, "color") || is_word(word, "solid")) {  // a line twice is one
         skip_name();
         continue;
@@ -301,10 +361,10 @@ class AsciiReader {
   }
 
   bool another_solid() {
-    std::string_view word = scanner_.word_across_lines();
-    while (is_word(word, "endsolid")) {  // its line twice, as that of "solid"
+    std::string_view word = next_word();
+    while (is_end_of_solid(word)) {  // its line twice, as that of "solid"
       skip_name();
-      word = scanner_.word_across_lines();
+      word = next_word();
     }
     if (word.empty() && block_.is_last) return false;
     if (!is_word(word, "solid")) fail_word(word, "'solid' or the end of the file");
@@ -325,6 +385,7 @@ class AsciiReader {
   const TextBlock block_;
   TextScanner scanner_;
   Use& use_;
+  Beside beside_;
 };
 
 class MergingUse {
@@ -345,6 +406,18 @@ class MergingUse {
   int corners_ = 0;
 };
 
+void note_beside(const Beside& beside, std::vector<Note>& notes) {
+  if (beside.lacks_solid)
+    notes.push_back(
+        note_of(NoteCode::kUnread,
+                "no line 'solid': the text begins with a facet, and is read to its end"));
+  if (beside.remarks > 0)
+    notes.push_back(note_of(NoteCode::kUnread, counted(beside.remarks, "line") +
+                                                   " taken for remarks and ignored, the first is "
+                                                   "line " +
+                                                   std::to_string(beside.first_remark)));
+}
+
 Mesh read_ascii(const MeshSource& source) {
   FileMeshBuilder builder(source);
   std::string place;
@@ -353,19 +426,49 @@ Mesh read_ascii(const MeshSource& source) {
     AsciiReader reader(source, whole_text(source), use);
     reader.read();
     place = reader.place();
+    note_beside(reader.beside(), builder.notes);
   }  // its memory is free before more is taken
   return std::move(builder).finish(place);
 }
 
-bool begins_with_solid(std::string_view bytes) {
-  const size_t begin = bytes.find_first_not_of(" \t\r\n");
-  return begin != std::string_view::npos && is_word(bytes.substr(begin, 5), "solid");
+// Whether text begins as STL does, perhaps behind remarks: with a solid, or without its line.
+bool begins_as_stl(std::string_view text) {
+  TextScanner scanner(text, "", '\0', MixedLineEnds::kIgnored);
+  std::string_view word = scanner.word_across_lines();
+  while (is_remark(word)) {
+    scanner.skip_line();
+    word = scanner.word_across_lines();
+  }
+  const std::string_view begin = word.substr(0, 5);
+  return is_word(begin, "solid") || is_word(begin, "facet");
+}
+
+// Whether the file is as long as a binary STL's header announces, or longer.
+bool has_room_for_binary(const MeshSource& source, std::string_view head) {
+  return head.size() >= kHeaderBytes &&
+         announced_triangles(head) <= (source.size() - kHeaderBytes) / kTriangleBytes;
+}
+
+// Whether text stands where a binary STL would have its count, so that it announces more triangles
+// than the file has room for.
+bool has_text_for_count(const MeshSource& source, std::string_view bytes) {
+  return is_printable(bytes.substr(std::min(bytes.size(), kHeaderBytes - 4), 4)) &&
+         !has_room_for_binary(source, bytes);
 }
 
 // Binary headers often begin with "solid" too, but hold zero bytes: in the attributes if nowhere
-// else.
-bool is_ascii(std::string_view bytes) {
-  return begins_with_solid(bytes) && bytes.find('\0') == std::string_view::npos;
+// else. Text that begins otherwise is told so, rather than the triangles that its bytes announce.
+bool is_ascii(const MeshSource& source, std::string_view bytes) {
+  const size_t zero = bytes.find('\0');
+  if (zero == std::string_view::npos) {
+    return begins_as_stl(bytes) || (!bytes.empty() && has_text_for_count(source, bytes) &&
+                                    is_printable(bytes.substr(0, kHeaderBytes)));
+  }
+  if (has_text_for_count(source, bytes) && has_facets(bytes.substr(0, zero))) {
+    reject(source.name, byte_place(zero), "a zero byte in text",
+           "text alone; a binary STL behind it is a file of its own");
+  }
+  return false;
 }
 
 /// Keeps the corners of a block, three for each facet.
@@ -399,7 +502,10 @@ Mesh read_ascii_by_blocks(const MeshSource& source) {
   blocks.for_each(pool, [&](size_t i, const TextBlock& block) {
     if (block.text.find('\0') != std::string_view::npos)
       reject(source.name, byte_place(0), "a zero byte", "text");
-    AsciiReader(source, block, read[i]).read();
+    AsciiReader reader(source, block, read[i]);
+    reader.read();
+    if (reader.beside().is_any())  // notes are of the whole file
+      reject(source.name, byte_place(0), "text beside the facets", "none");
   });
   return merged(source, pool, joined(pool, std::move(read))).finish("byte 0", Positions::kDiffer);
 }
@@ -413,17 +519,18 @@ std::string_view without_end_marks(std::string_view text) {
 Mesh read_stl_whole(const MeshSource& source) {
   MeshSource text = source;
   text.bytes = without_end_marks(source.bytes);
-  if (!is_exact_binary_stl(source.bytes, source.size()) && is_ascii(text.bytes))
+  if (!is_exact_binary_stl(source.bytes, source.size()) && is_ascii(source, text.bytes))
     return read_ascii(text);
   return read_binary(source);
 }
 
 Mesh read_stl_by_blocks(const MeshSource& source) {
   const std::string head = head_of(source, 4096);
-  if (is_exact_binary_stl(head, source.size()) || !begins_with_solid(head))
+  if (is_exact_binary_stl(head, source.size()) || !begins_as_stl(head))
     return read_binary_by_blocks(source);
   // Zero bytes may be a binary header's, or end marks behind text: the whole file decides.
-  if (!is_ascii(head)) reject(source.name, byte_place(0), "text with zero bytes, perhaps", "text");
+  if (head.find('\0') != std::string::npos)
+    reject(source.name, byte_place(0), "text with zero bytes, perhaps", "text");
   return read_ascii_by_blocks(source);
 }
 

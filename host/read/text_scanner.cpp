@@ -1,12 +1,23 @@
 #include "host/read/text_scanner.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "host/base/reject.h"
 
 namespace vkh {
+
+bool is_printed_nan(std::string_view word) {
+  if (word.starts_with('-') || word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with("1.#")) return true;
+  std::string lower(word);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower == "nan" || lower == "inf" || lower == "infinity" ||
+         (lower.starts_with("nan(") && lower.ends_with(')'));
+}
 
 // Decides once, which keeps a binary body's first LF out of it.
 char line_terminator(std::string_view text) {
@@ -129,6 +140,15 @@ std::string_view TextScanner::word_across_lines() {
 
 void TextScanner::fail(const std::string& what, const std::string& expected) const {
   reject(name_, place(), what, expected);
+}
+
+double TextScanner::nan_in(std::string_view word) const {
+  if (!is_printed_nan(word)) fail_number(word, "coordinate", false);
+  const bool is_infinite =
+      word.find_first_of("iI") <= 1 && word.find('#') == std::string_view::npos;
+  if (!is_infinite) return std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  return word.starts_with('-') ? -infinity : infinity;
 }
 
 void TextScanner::fail_number(std::string_view word, const char* what, bool integer) const {

@@ -19,6 +19,10 @@ enum class MixedLineEnds { kRefused, kIgnored };
 /// Whether C's isspace() holds for it, whatever the locale.
 inline bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
+/// Whether a word is what C libraries print for a float that is no number, or infinite: nan,
+/// -nan(ind), 1.#QNAN, inf.
+bool is_printed_nan(std::string_view word);
+
 /// Lines end in LF or CR LF (or CR CR LF); only a text whose first line ends in a CR alone ends
 /// them so throughout (old Macintosh exports).
 char line_terminator(std::string_view text);
@@ -65,6 +69,14 @@ class TextScanner {
     return value;
   }
 
+  /// Reads a coordinate as C libraries print it, from the current line: also one that is no number
+  /// or infinite, for scanners and exporters leave such vertices where no face uses them.
+  double coordinate() { return coordinate_in(word()); }
+  double coordinate_in(std::string_view text) const {
+    double value = 0;
+    return parse_number(text, value) ? value : nan_in(text);
+  }
+
   size_t line_number() const { return line_number_; }
   /// The byte after the current line and its terminator.
   size_t offset() const { return next_; }
@@ -77,6 +89,7 @@ class TextScanner {
   std::string_view physical_line();
   void check_line_end(std::string_view line) const;
   bool cut_continuation(std::string_view& line) const;
+  double nan_in(std::string_view word) const;
   [[noreturn]] void fail_number(std::string_view word, const char* what, bool integer) const;
 
   std::string_view text_;

@@ -229,6 +229,7 @@ class Builder {
     return left;
   }
 
+  // A mirror turns faces round (core specification 1.4, 4.1).
   void add_mesh(const Object& object, const scene::Affine& map) {
     const scene::Mover mover(map, 0);
     const std::vector<Volumes::Range> left = left_out_of(object);
@@ -248,6 +249,7 @@ class Builder {
         }
         face[c] = slot.vertex;
       }
+      if (map.sign < 0) std::swap(face.y, face.z);
       builder_.add_triangle(face);
     }
   }

@@ -26,6 +26,13 @@ constexpr std::array<std::string_view, 4> kKnown = {
     kCore, kProduction, "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"};
 
+// A namespace without what all of 3MF's begin with: its end tells them apart.
+std::string_view short_name(std::string_view uri) {
+  constexpr std::string_view kCommon = "3dmanufacturing/";
+  const size_t at = uri.find(kCommon);
+  return at == std::string_view::npos ? uri : uri.substr(at + kCommon.size());
+}
+
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n";
   const size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
@@ -141,7 +148,8 @@ void Part::open(std::string_view name, const Attributes& attributes) {
   const In from = depth_ == 0 ? In::kNothing : way_[depth_ - 1];
   const bool is_core = name.starts_with(kCore) && name.substr(kCore.size()).starts_with('|');
   const std::string_view local = is_core ? name.substr(kCore.size() + 1) : "";
-  if (depth_ == 0 && local != "model") fail("the root is " + vkh::quoted(name), "a model of 3MF");
+  if (depth_ == 0 && local != "model")
+    fail("the root is " + vkh::quoted(short_name(name)), "'core/2015/02|model', which 3MF has");
   const auto* const step = std::find_if(std::begin(kSteps), std::end(kSteps), [&](const Step& s) {
     return s.from == from && s.name == local;
   });
@@ -210,9 +218,7 @@ void Part::open_model(const Attributes& attributes) {
                           std::find(kKnown.begin(), kKnown.end(), uri->second) != kKnown.end();
     if (is_known) continue;
     const std::string name = uri == namespaces_.end() ? std::string(prefix) : uri->second;
-    const size_t end = name.find("3dmanufacturing/");
-    fail("the extension " + vkh::quoted(end == std::string::npos ? name : name.substr(end + 16)) +
-             " is required, which is not read",
+    fail("the extension " + vkh::quoted(short_name(name)) + " is required, which is not read",
          "a file that does without");
   }
 }
@@ -376,12 +382,12 @@ Model read_model(const MeshSource& source, Package& package) {
 // The map of a use. Rows of the file's matrix are columns of ours: its points stand before the
 // matrix.
 scene::Affine map_of(const Model& model, const Use& use) {
-  scene::Affine map;
-  if (use.transform == kNone) return map;
+  if (use.transform == kNone) return {};
+  scene::Affine::Rows rows{};
   for (size_t r = 0; r < 3; ++r) {
-    for (size_t c = 0; c < 4; ++c) map.m[r][c] = model.transforms[use.transform][3 * c + r];
+    for (size_t c = 0; c < 4; ++c) rows[r][c] = model.transforms[use.transform][3 * c + r];
   }
-  return map;
+  return scene::affine_of(rows);
 }
 
 }  // namespace vkh::threemf

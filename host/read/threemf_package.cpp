@@ -18,11 +18,12 @@ struct CloseEntry {
 
 constexpr const char* kExpected = "a 3MF file";
 
-// Resolves a name from the root on, without "." and "..".
+// Resolves a name from the root on, without "." and "..". A backslash is a slash to those who
+// write names as Windows does.
 std::string without_dots(std::string_view name) {
   std::vector<std::string_view> steps;
   while (!name.empty()) {
-    const std::string_view step = name.substr(0, name.find('/'));
+    const std::string_view step = name.substr(0, name.find_first_of("/\\"));
     name.remove_prefix(std::min(name.size(), step.size() + 1));
     if (step == ".." && !steps.empty()) steps.pop_back();
     if (!step.empty() && step != "." && step != "..") steps.push_back(step);
@@ -61,10 +62,17 @@ Package::Package(const MeshSource& source)
 
 Package::~Package() = default;
 
-// A name as it is written comes first: not all who write packages know about percents.
+// A name as it is written comes first: not all who write packages know about percents, or that a
+// zip's names have slashes.
 int64_t Package::find(const std::string& part) const {
   const std::string plain = without_dots(part);
-  for (const std::string& name : {plain, without_percents(plain)}) {
+  const auto with_backslashes = [](std::string name) {
+    std::replace(name.begin(), name.end(), '/', '\\');
+    return name;
+  };
+  const std::string resolved = without_percents(plain);
+  for (const std::string& name :
+       {plain, resolved, with_backslashes(plain), with_backslashes(resolved)}) {
     const zip_int64_t index =
         zip_name_locate(archive_->zip, name.c_str(), ZIP_FL_NOCASE | ZIP_FL_ENC_GUESS);
     if (index >= 0) return index;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/base/float128.h"
+#include "host/mesh/exact_sum.h"
 
 namespace vkh::scene {
 namespace {
@@ -72,6 +73,19 @@ Float128Rows rotation_of(const std::array<double, 4>& q) {
            {over(x * z - y * w), over(y * z + x * w), 1 - over(x * x + y * y)}}};
 }
 
+int sign_of(double x) { return x < 0 ? -1 : x > 0 ? 1 : 0; }
+
+// Of entries that are not all finite, no point is placed, and the sign does not matter.
+int sign_of_determinant(const Affine::Rows& rows) {
+  ExactVolume sum;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    sum.add_product(rows[0][i], rows[1][j], rows[2][k], false);
+    sum.add_product(rows[0][i], rows[1][k], rows[2][j], true);
+  }
+  return sum.sign();
+}
+
 bool is_power_of_two(double x) {
   int exponent = 0;
   return std::abs(std::frexp(x, &exponent)) == 0.5;
@@ -94,6 +108,12 @@ bool is_exact(const std::array<double, 4>& row, const std::array<double, 4>& off
 
 bool is_identity(const Affine& map) { return map.m == Affine{}.m && map.off == Affine{}.off; }
 
+Affine affine_of(const Affine::Rows& rows) {
+  Affine map{.m = rows};
+  if (is_finite(map)) map.sign = sign_of_determinant(rows);
+  return map;
+}
+
 double squared_length(const std::array<double, 4>& q) {
   return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
 }
@@ -114,6 +134,7 @@ std::optional<Affine> affine_of(const Placing& placing) {
       map.off[i][j] = entry.off;
     }
     map.m[i][3] = placing.translation[i];
+    map.sign *= sign_of(placing.scale[i]);  // a rotation's is 1
   }
   return map;
 }
@@ -137,7 +158,7 @@ Affine compose(const Affine& outer, const Affine& inner) {
   if (is_identity(outer)) return inner;
   if (is_identity(inner)) return outer;
   if (!is_finite(outer) || !is_finite(inner)) return nowhere();
-  Affine map;
+  Affine map{.sign = outer.sign * inner.sign};
   for (size_t r = 0; r < 3; ++r) {
     for (size_t c = 0; c < 4; ++c) {
       Float128Sum sum;

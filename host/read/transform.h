@@ -7,14 +7,19 @@
 
 namespace vkh::scene {
 
-/// Maps x -> m (x, 1). An exact entry of the map lies within `off` of the stored one.
+/// Maps x -> m (x, 1). An exact entry of the map lies within `off` of the stored one. `sign` is
+/// that of the exact map's determinant: -1 where it mirrors, 0 where it flattens.
 struct Affine {
   using Rows = std::array<std::array<double, 4>, 3>;
   Rows m = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
   Rows off = {};
+  int sign = 1;
 };
 
 bool is_identity(const Affine& map);
+
+/// A map of these entries, as a file has them.
+Affine affine_of(const Affine::Rows& rows);
 
 /// Translation, rotation and scale as a scene gives them: x -> t + R(q) (s x), where s scales each
 /// axis. The quaternion q is stored as x, y, z, w; R(q) takes its direction and ignores its length.
@@ -31,7 +36,7 @@ double squared_length(const std::array<double, 4>& rotation);
 Affine scaling(double numerator, double denominator);
 
 /// Applies outer after inner. Each entry is rounded once, from Float128; what that took off is
-/// exact.
+/// exact, and so is the sign: determinants multiply.
 Affine compose(const Affine& outer, const Affine& inner);
 
 /// Applies a map to points, and bounds how far each lies from its exact image.

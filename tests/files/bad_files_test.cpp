@@ -85,7 +85,7 @@ std::vector<std::string> csv_cells(const std::string& line) {
 const std::map<std::string, bool> kAcceptedByChoice = {
     {"obj_1e-200_coords.obj", true},            // the solver's frame rescales
     {"obj_1e200_coords.obj", true},             // the same
-    {"obj_nan_unreferenced.obj", false},        // the text nan is refused anywhere
+    {"obj_nan_unreferenced.obj", true},         // dropped, as in binary PLY
     {"real_assimp_concave_polygon.obj", true},  // cut along its outline
     {"real_assimp_longline.obj", false},        // its first face crosses itself
     {"real_assimp_face_texcoord_oob.ply", false},

@@ -218,8 +218,8 @@ TEST_CASE("OBJ: coordinates are correctly rounded doubles") {
 }
 
 TEST_CASE("OBJ: tokens that are no number are named with file and line") {
-  for (const std::string word : {"nan", "-inf", "+nan", "infinity", "0x1p3", "1,5", "1/3", "1e400",
-                                 "1e", "1.2.3", "--1", "+-1", "-", "+", ".", "1f", "1e+"}) {
+  for (const std::string word : {"0x1p3", "1,5", "1/3", "1e400", "1e", "1.2.3", "--1", "+-1", "-",
+                                 "+", ".", "1f", "1e+", "nano"}) {
     CAPTURE(word);
     const std::string good = "v 0 0 0\nv 1 0 0\nf 1 2 3\n";
     CHECK(error_of(good + "v 0 " + word + " 0\n", "a.obj") ==
@@ -228,6 +228,19 @@ TEST_CASE("OBJ: tokens that are no number are named with file and line") {
     CHECK(error_of(good + "v 0 0 0 " + word + "\n", "a.obj").starts_with("a.obj: line 4: '"));
   }
   CHECK(error_of("v 0 0\n", "a.obj").starts_with("a.obj: line 1: no coordinate; expected "));
+  // What is printed of a float that is not finite matters where a face uses it.
+  for (const auto& [word, value] : {std::pair{"nan", "nan"},
+                                    {"-inf", "-inf"},
+                                    {"+nan", "nan"},
+                                    {"infinity", "inf"},
+                                    {"-1.#IND", "nan"},
+                                    {"-nan(ind)", "nan"}}) {
+    const std::string row = "v 0 " + std::string(word) + " 0\n";
+    CHECK(error_of("v 0 0 0\nv 1 0 0\nf 1 2 3\n" + row, "a.obj") ==
+          "a.obj: vertex 2: (0, " + std::string(value) +
+              ", 0) is not finite; expected finite coordinates");
+    CHECK(parse(row + "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n", "a.obj").vertices.size() == 3);
+  }
 }
 
 TEST_CASE("OBJ: face forms and indices") {
@@ -290,7 +303,7 @@ TEST_CASE("PLY: rows must hold what the header says") {
     return error_of(head + body, "a.ply").substr(0, 14);
   };
   CHECK(place("0 0\n0 1 0 0\n0 1 0\n3 0 1 2\n") == "a.ply: line 10");
-  CHECK(place("0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") == "a.ply: line 10");
+  CHECK(place("0 0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") == "a.ply: line 11");
   CHECK(place("0 0 0\n1 0 0\n0 1e39 0\n3 0 1 2\n") == "a.ply: line 12");
   CHECK(place("0 0 0\n1 0 0\n0 1 0\n4 0 1 2\n") == "a.ply: line 13");
   CHECK(place("0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") == "a.ply: line 13");

@@ -117,6 +117,23 @@ TEST_CASE("items and components are placed, and the delta bounds how well") {
   CHECK(moved.vertices[1] == glm::dvec3(1, 0, 5));
 }
 
+TEST_CASE("mirrors of items and components turn faces round") {
+  const std::string plain = "1 0 0 0 1 0 0 0 1 0 0 0", mirror = "-1 0 0 0 1 0 0 0 1 10 0 0",
+                    turn = "0 -1 0 1 0 0 0 0 1 0 0 0", swap = "0 1 0 1 0 0 0 0 1 0 0 0";
+  const auto sign_of = [&](const std::string& by) { return by == mirror || by == swap ? -1 : 1; };
+  for (const std::string& of_item : {plain, mirror, turn, swap}) {
+    for (const std::string& outer : {plain, mirror, turn, swap}) {
+      for (const std::string& inner : {plain, mirror, turn, swap}) {
+        const std::string objects = kOne + object_of("2", components(component("1", inner))) +
+                                    object_of("3", components(component("2", outer)));
+        const Mesh mesh = parse(package_of(model_of(objects, item("3", of_item))));
+        const bool is_mirrored = sign_of(of_item) * sign_of(outer) * sign_of(inner) < 0;
+        CHECK(mesh.faces[0] == (is_mirrored ? UVec3(0, 2, 1) : UVec3(0, 1, 2)));
+      }
+    }
+  }
+}
+
 TEST_CASE("objects of other parts, by the production extension") {
   const std::string production =
       "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" "

@@ -139,6 +139,55 @@ TEST_CASE("no entry of a node's map, and no moved point, is farther off than is 
   CHECK(tally.counted("and said to be") > count / 40);
 }
 
+Rational determinant(const Exact& m) {
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+         m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/// Rows of which one is nearly, or exactly, a sum of the others.
+Affine::Rows nearly_flat(Random& random) {
+  Affine::Rows rows{};
+  const double scale = std::ldexp(1.0, static_cast<int>(random.below(300)) - 150);
+  const auto number = [&] { return std::ldexp(random.below(1 << 21) - 0x1p20, -20); };
+  for (size_t c = 0; c < 4; ++c) {
+    rows[1][c] = number();
+    rows[2][c] = number();
+    rows[0][c] = scale * (rows[2][c] - rows[1][c]);
+  }
+  const size_t c = random.below(3);
+  const double way = random.below(2) == 0 ? -INFINITY : INFINITY;
+  for (uint32_t steps = random.below(3); steps > 0; --steps)
+    rows[2][c] = std::nextafter(rows[2][c], way);
+  std::swap(rows[random.below(3)], rows[random.below(3)]);
+  return rows;
+}
+
+TEST_CASE("the sign of a chain's determinant is exact, however flat its maps are") {
+  const uint64_t count = case_count() / 40;
+  Random random(20261128);
+  Tally tally("sign of the determinant");
+  for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
+    Affine map;
+    int sign = 1;
+    for (uint32_t levels = 1 + random.below(4); levels > 0; --levels) {
+      const bool is_matrix = random.below(2) == 0;
+      const Placing placing = hard_placing(random);
+      const Affine inner = is_matrix ? affine_of(nearly_flat(random)) : *affine_of(placing);
+      const Rational exact = determinant(is_matrix ? exact_of(inner) : exact_of(placing));
+      tally.count("flat", exact == 0);
+      tally.count("mirrors", exact < 0);
+      sign *= sgn(exact);
+      map = compose(map, inner);
+    }
+    tally.require(map.sign == sign, "sign of a chain",
+                  [&] { return std::to_string(map.sign) + " for " + std::to_string(sign); });
+  }
+  tally.conclude(count);
+  CHECK(tally.counted("flat") > count / 40);
+  CHECK(tally.counted("mirrors") > count / 4);
+}
+
 TEST_CASE("what moves nothing, or turns by right angles, is exact") {
   const glm::dvec3 p = {0.1, -1.0 / 3, 1e300};
   double delta = 0;

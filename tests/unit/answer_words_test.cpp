@@ -212,4 +212,21 @@ TEST_CASE("limits of sides are conditional on a B that is not inside out") {
   CHECK_FALSE(has(in_words(answer), "inside out"));
 }
 
+TEST_CASE("what was not read of a file is said in the first line") {
+  for (const auto& [code, text] : {std::pair{NoteCode::kSurfaces, "1 free-form surface not read"},
+                                   {NoteCode::kCalls, "2 calls of other files not followed"},
+                                   {NoteCode::kElements, "3 lines with points ignored"}}) {
+    Answer answer = gate(0.05, 0.15);
+    answer.max->length = parse_length("--max", "0.2mm", PlainNumber::kRefused);
+    answer.max->limit = {0.2, 0.2};
+    answer.inputs[1].notes = {note_of(code, text + std::string(": only the faces are measured"))};
+    CHECK(in_words(answer).starts_with("PASS  if the inputs are right (B: " + std::string(text) +
+                                       "): every point"));
+    CHECK(has(to_junit(answer), text));
+    CHECK(has(github_annotation(answer), "if the inputs are right (B: " + std::string(text)));
+    answer.a_to_b.lower = answer.a_to_b.upper = 0.4;
+    CHECK(has(in_words(answer), ". Check the inputs: B: " + std::string(text)));
+  }
+}
+
 }  // namespace

@@ -69,7 +69,7 @@ struct Polygons {
   /// Whether the outline of that face crosses itself, encloses no area or is too intricate.
   PolygonKind first_kind = PolygonKind::kFan;
   /// Any triangulation of the same outlines is as near to this mesh, both ways: corners that lie in
-  /// no plane leave it open. Faces that have only a fan are not among them.
+  /// no plane leave it open. Faces that have only a fan are among them if they are slivers.
   double ambiguity = 0;
   uint64_t ambiguous_face = 0;     ///< the first with this ambiguity, as the file counts from 0
   bool any_triangulation = false;  ///< Mesh::delta has the ambiguity: ReadLimits has the same

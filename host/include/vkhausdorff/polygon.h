@@ -12,7 +12,8 @@ namespace vkh {
 struct PolygonResult {
   PolygonKind kind = PolygonKind::kFan;
   /// Any triangulation with this outline is as near to this one, both ways; 0 for a flat one whose
-  /// plane an axis is normal to.
+  /// plane an axis is normal to, and for corners on a line. Of an outline that has only a fan, any
+  /// connected surface of these corners within their hull is as near to the fan.
   double ambiguity = 0;
   /// Triangles of a clipped polygon, corners by their place, and the axis along which they tile it.
   std::vector<UVec3> triangles = {};

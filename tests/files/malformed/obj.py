@@ -76,7 +76,11 @@ def vertex_numbers(cases):
         'colour_infinite_with_alpha': 'v 1 0 0 inf -Inf 0 1',
         'tabs': 'v\t0\t0\t0',
     }
-    refused = ('nan NaN -nan nan(0x1) -1.#IND 1.#QNAN inf Infinity -INF +inf snan 0x1p3 0,5 1e400 '
+    for i, word in enumerate('nan NaN -nan nan(0x1) -1.#IND 1.#QNAN inf Infinity -INF +inf'.split()):
+        triangle = '\nv 1 0 0\nv 0 1 0\n'
+        cases.refuse(f'number_not_finite_{i}', f'v {word} 0 0{triangle}f 1 2 3\n', 'vertex 0: (')
+        cases.accept(f'number_not_finite_unreferenced_{i}', 1, f'v 0 0 0{triangle}f 1 2 3\nv {word} 0 0\n')
+    refused = ('snan nan0 infinite 0x1p3 0,5 1e400 '
                '-1e400 1e 1e+ . ++1 +-1 --1 1d5 1_0 1.0f 1/3 3.1+e2 abc 0#c '
                '1e99999999999999999999').split()
     triangle = '\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'
@@ -90,7 +94,6 @@ def vertex_numbers(cases):
             'colour_word': 'v 1 0 0 1 0 red', 'colour_and_vertex': 'v 1 0 0 nan 0 0 v 0 0 1',
             'unicode_minus': 'v \xe2\x88\x921 0 0', 'no_break_space': 'v\xc2\xa01 0 0'}.items():
         cases.refuse(f'number_{name}', line + triangle, 'line 1: ')
-    cases.refuse('number_nan_unreferenced', 'v 0 0 0' + triangle + 'v nan 0 0\n')
 
 
 def continued_lines(cases):
@@ -129,7 +132,7 @@ def continued_lines(cases):
 
 def keywords(cases):
     cases.refuse('upper_case', 'V 0 0 0\nV 1 0 0\nV 0 1 0\nF 1 2 3\n', 'line 1: ')
-    strangers = ['F', 'fo', 'Fo', 'face', 'f1', 'f#', '3', '"f"', 'vertex', 'V', 'Vt', '\xa0f']
+    strangers = ['F', 'FO', 'Fo', 'face', 'f1', 'f#', '3', '"f"', 'vertex', 'V', 'Vt', '\xa0f']
     for i, keyword in enumerate(strangers):
         cases.refuse(f'keyword_unknown_{i}', VERTICES + f'f 1 3 2\n{keyword} 1 2 4\nf 1 4 3\n',
                      'line 6: ')

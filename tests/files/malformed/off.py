@@ -95,7 +95,9 @@ def faces(cases):
 
 
 def coordinates(cases):
-    for i, word in enumerate('nan inf 1e400 0x1p3 0,5 abc 1/3'.split()):
+    cases.refuse('coordinate_nan', BASE.replace('1 0 0', 'nan 0 0', 1), 'vertex 1: (nan, 0, 0) is not finite')
+    cases.refuse('coordinate_infinite', BASE.replace('1 0 0', '-inf 0 0', 1), 'vertex 1: (-inf, 0, 0) is not finite')
+    for i, word in enumerate('1e400 0x1p3 0,5 abc 1/3'.split()):
         cases.refuse(f'coordinate_refused_{i}', BASE.replace('1 0 0', f'{word} 0 0', 1), 'line 4: ')
     cases.accept('coordinate_below_least_double', 4, BASE.replace('1 0 0', '1e-400 -1e-400 1', 1))
     cases.refuse('vertex_cut', BASE.replace('1 0 0\n', '1 0\n', 1),

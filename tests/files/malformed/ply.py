@@ -108,7 +108,15 @@ def trailing(cases):
                  'unread: 4 lines ' + words + "'s properties, which were ignored, the first is line 14")
     cases.accept('words_behind_one_face', 4, ascii_faces(FACE_ROWS.replace('0 1 3', '0 1 3 red')),
                  'unread: 1 line ' + words + "'s properties, which were ignored, the first is line 15")
-    cases.refuse('words_behind_vertices', ascii_faces(FACE_ROWS, with_suffix(VERTEX_ROWS, '7')), "line 10: '7'")
+    cases.accept('words_behind_vertices', 4, ascii_faces(FACE_ROWS, with_suffix(VERTEX_ROWS, '7')),
+                 "unread: 4 lines with words behind a vertex's properties, which were ignored, the first is line 10")
+    cases.refuse('words_behind_one_vertex', ascii_faces(FACE_ROWS, VERTEX_ROWS.replace('0 1 0', '0 1 0 7')),
+                 "line 12: 1 word behind the vertex's last property; expected 0, as in the first")
+    cases.refuse('rows_begin_with_their_number', ascii_faces(FACE_ROWS, '0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n'),
+                 'rows that begin with their number')
+    # A face read as a vertex.
+    cases.refuse('vertex_more_face_less', ply('ascii', ['element vertex 5'] + XYZ + ['element face 3', CORNERS],
+                                              VERTEX_ROWS + FACE_ROWS), 'line 14: 1 word behind')
     cases.refuse('words_behind_a_short_face', ascii_faces(FACE_ROWS.replace('3 0 2 1', '2 0 2 1')), "line 14: '1'")
     # Two faces a line are one too few.
     cases.refuse('faces_glued', ascii_faces(FACE_ROWS.replace('\n', ' ', 1)), 'the file ends at face 3')
@@ -278,11 +286,14 @@ def elements(cases):
     cases.refuse('nothing', ply(LITTLE, ['element vertex 0'] + XYZ + ['element face 0', CORNERS]))
     cases.accept('face_first', 4, ply(LITTLE, FACE + VERTEX, F + V))
     strips = ['element tristrips 1', 'property list int int vertex_indices']
-    cases.refuse('strips', ply('ascii', VERTEX + strips, VERTEX_ROWS + '5 0 1 3 -1 2\n'),
-                 'tristrips')
+    cases.accept('strips', 3, ply('ascii', VERTEX + strips, VERTEX_ROWS + '8 0 1 3 2 -1 0 1 2\n'))
+    cases.accept('strips_with_a_corner_twice', 1,
+                 ply('ascii', VERTEX + strips, VERTEX_ROWS + '5 0 1 3 3 2\n'),
+                 'unread: 2 triangles of strips with a corner twice ignored')
+    cases.refuse('strips_beyond', ply('ascii', VERTEX + strips, VERTEX_ROWS + '4 0 1 3 4\n'), 'index 4')
+    cases.refuse('strips_minus_2', ply('ascii', VERTEX + strips, VERTEX_ROWS + '4 0 1 3 -2\n'), 'index -2')
     both = VERTEX_ROWS + '3 0 2 1\n5 0 1 3 -1 2\n'
-    cases.refuse('strips_too', ply('ascii', VERTEX + ONE_FACE + strips, both),
-                 "line 9: element 'tristrips'")
+    cases.accept('strips_too', 2, ply('ascii', VERTEX + ONE_FACE + strips, both))
     strips[1] = 'property list int int strip'
     cases.refuse('strips_of_another_list', ply('ascii', VERTEX + ONE_FACE + strips, both),
                  "line 9: element 'tristrips'")
@@ -362,7 +373,7 @@ def points(cases):
     cases.accept_points('other_element', 4, ply(LITTLE, ['element camera 1', 'property float f'] + VERTEX, floats(1) + V))
     cases.refuse_points('ascii_mesh', ASCII, 'line 7: 4 faces in a file of points; expected points alone')
     cases.refuse_points('binary_mesh', BINARY, '4 faces in a file of points')
-    cases.refuse_points('strips', ply('ascii', VERTEX + ['element tristrips 1', CORNERS], VERTEX_ROWS + '3 0 1 2\n'), 'lists corners')
+    cases.refuse_points('strips', ply('ascii', VERTEX + ['element tristrips 1', CORNERS], VERTEX_ROWS + '3 0 1 2\n'), '1 strip in a file of points')
     cases.refuse_points('nan', ply(LITTLE, VERTEX, floats(0, math.nan, 0) + V[12:]), 'vertex 0: (0, nan, 0) is not finite')
     cases.refuse_points('cut', ply(LITTLE, VERTEX, V[:-1]))
     cases.refuse_points('row_more', ply('ascii', VERTEX, VERTEX_ROWS + '1 1 1\n'), 'a row more than announced')
