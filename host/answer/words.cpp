@@ -109,14 +109,17 @@ std::string limits_in_words(const Answer& answer) {
          " under it";
 }
 
-/// A distance beyond a limit, as a FAIL begins: four digits where the farthest point is known, or
-/// more where the limit is nearer. The text never rounds down to the limit itself.
+/// A length that is known: four digits, or as many as it takes to lie in the enclosure.
+std::string known_length(const Answer& answer, const Enclosure& e) {
+  constexpr int kDigits = 4;
+  return with_unit(decimal_inside(e.lower, e.lower, e.upper, kDigits), answer);
+}
+
+/// A distance beyond a limit, as a FAIL begins: the text is never the limit itself, or under it.
 std::string beyond_in_words(const Answer& answer, const Enclosure& e, const Limit& limit) {
+  if (is_farthest_known(e.lower, e.upper)) return "FAIL  " + known_length(answer, e);
   const double margin = std::min(e.lower - limit.beyond, e.upper - e.lower);
-  const bool is_known = is_farthest_known(e.lower, e.upper);
-  const double shown =
-      is_known ? std::min(e.lower - limit.beyond, std::max(margin, 2e-3 * e.lower)) : margin;
-  return (is_known ? "FAIL  " : "FAIL  at least ") + length_down(answer, e.lower, shown);
+  return "FAIL  at least " + length_down(answer, e.lower, margin);
 }
 
 std::string failure_in_words(const Answer& answer, bool back) {
@@ -130,8 +133,7 @@ std::string failure_in_words(const Answer& answer, bool back) {
                         : " at a point of " + from;
   if (answer.max->sides) return text + ", beyond both limits, " + limits_in_words(answer);
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
-  return text + ", limit of its face " +
-         with_unit(number_text(limit.within, std::chars_format::general, 9), answer);
+  return text + ", limit of its face " + with_unit(length_in_words(limit), answer);
 }
 
 // Names the unit of the count: a polygon's triangles are more than it.
@@ -205,8 +207,7 @@ std::string deviation_in_words(const Answer& answer, const CertifiedInterval& wh
   if (whole.upper == 0) return "no deviation";
   const double gap = gap_as_printed(answer, whole.lower, whole.upper);
   if (is_farthest_known(whole.lower, whole.upper))
-    return "largest deviation " +
-           length_down(answer, whole.lower, std::max(gap, 2e-3 * whole.lower));
+    return "largest deviation " + known_length(answer, {whole.lower, whole.upper});
   if (whole.upper <= 0.5 * answer.max->limit.within)
     return "largest deviation at most " + length_up(answer, whole.upper, gap);
   return "largest deviation in " + interval_text(answer, whole) +
