@@ -214,6 +214,12 @@ void add_notes_on_fit(Answer& answer) {
                                    "another place of A is about as close to B (" +
                                        rms_text(*fit.rival, answer) + "): is the part symmetric?",
                                    {*fit.rival, answer.unit}));
+  if (fit.mirrored)
+    answer.notes.push_back(note_of(
+        NoteCode::kMirrored,
+        "A looks like a mirror image of B: mirrored, all of it would lie " +
+            rms_text(*fit.mirrored, answer) + " from B (root mean square): was one axis reversed?",
+        {*fit.mirrored, answer.unit}));
 }
 
 /// From a surface to points the farthest places lie between points.
@@ -367,7 +373,9 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   answer.placed = placed_of(question, a);
   answer.inputs[0].box = box_a;
   answer.inputs[1].box = box_b;
-  for (Note& note : notes_on_pair(shape_a, shape_b, answer.unit, question.option("unit")))
+  const bool is_fitted = a.placed && a.placed->fit;
+  for (Note& note :
+       notes_on_pair(shape_a, shape_b, answer.unit, question.option("unit"), is_fitted))
     answer.notes.push_back(std::move(note));
   for (Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
     if (r == nullptr) continue;

@@ -315,7 +315,7 @@ py::object align(const py::args& positional, const py::kwargs& named) {
   const FoundFit& fit = found.fit;
   return py::module_::import("vkhausdorff._align")
       .attr("Alignment")(matrix_rows(found.matrix), fit.rms, fit.share, fit.samples, fit.is_poor,
-                         fit.rival);
+                         fit.rival, fit.mirrored);
 }
 
 py::object closest(const py::args& positional, const py::kwargs& named) {

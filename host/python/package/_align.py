@@ -13,7 +13,8 @@ class Alignment:
     matrix: (4, 4), float64, read-only: a rotation and a shift, which transform= takes. rms: the root mean square distance
     from B of A's samples that count there, in the coordinates' unit; share: of the samples, those within three deviations,
     which count; samples: how many there are. poor: the fit is far from B for its size, or few samples count. rival: where
-    another place is about as good, such as for a symmetric part, the rms of the nearest 80 % there; otherwise None.
+    another place is about as good, such as for a symmetric part, the rms of the nearest 80 % there; otherwise None. mirrored:
+    where A's mirror image would lie far closer, the rms of all its samples there; otherwise None.
     """
 
     matrix: Any
@@ -22,16 +23,17 @@ class Alignment:
     samples: int
     poor: bool
     rival: Any
+    mirrored: Any
 
-    def __init__(self, matrix, rms, share, samples, poor, rival):
+    def __init__(self, matrix, rms, share, samples, poor, rival, mirrored=None):
         own = np.array(matrix, dtype=np.float64)
         own.setflags(write=False)
         for name, value in (("matrix", own), ("rms", rms), ("share", share), ("samples", samples), ("poor", poor),
-                            ("rival", rival)):
+                            ("rival", rival), ("mirrored", mirrored)):
             object.__setattr__(self, name, value)
 
     def __reduce__(self):  # an unpickled array could be written to
-        return Alignment, (self.matrix, self.rms, self.share, self.samples, self.poor, self.rival)
+        return Alignment, (self.matrix, self.rms, self.share, self.samples, self.poor, self.rival, self.mirrored)
 
     def __repr__(self):
         return f"<vkhausdorff.Alignment: {self.share:.1%} of {self.samples} samples, rms {self.rms:.4g}>"
