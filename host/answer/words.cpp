@@ -34,9 +34,9 @@ std::string point_text(const Answer& answer, const SurfacePoint& p, bool of_b) {
 
 // Returns upper as a share in percent.
 std::string share_of_diagonal(const Answer& answer, double upper) {
-  const double diagonal = answer.a_to_b.diagonal_a;
+  const double diagonal = diagonal_of_a(answer).least();
   if (!(diagonal > 0)) return "";
-  const double share = 100 * divide_up(upper, diagonal);
+  const double share = multiply_up(100, divide_up(upper, diagonal));
   return " (" + decimal(share, 3, Rounding::kUp) + " % of A's diagonal)";
 }
 
@@ -256,6 +256,20 @@ std::string sides_in_words(const Answer& answer) {
          ", where points without a side count as either" + survey_hint(answer, false);
 }
 
+/// Says what would decide a limit that lies in the interval. A limit that is a share of a diagonal
+/// is only known as well as that: no tolerance decides what lies within its ends.
+std::string limit_hint(const Answer& answer, const CertifiedInterval& whole) {
+  const Limit& limit = answer.max->limit;
+  const Diagonal of_a = diagonal_of_a(answer);
+  const bool is_rounded =
+      answer.max->length.of == Length::Of::kDiagonal && of_a.least() < of_a.most();
+  if (!is_rounded || whole.lower < limit.within || whole.upper > limit.beyond)
+    return hint(answer, whole.status);
+  return "; A's coordinates were rounded, so that its diagonal is known to within " +
+         with_unit(decimal(width_up(of_a.least(), of_a.most()), 3, Rounding::kUp), answer) +
+         ": give the limit as a length";
+}
+
 std::string gate_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const Asked& max = *answer.max;
@@ -276,7 +290,7 @@ std::string gate_in_words(const Answer& answer) {
   }
   if (verdict == Verdict::kUndecided)
     return "UNDECIDED  the limit " + asked + " lies in " + interval_text(answer, whole) +
-           hint(answer, whole.status);
+           limit_hint(answer, whole);
   return std::string("PASS  every point of A") + (answer.b_to_a ? " and of B" : "") +
          " is within " + asked + " of " + (answer.b_to_a ? "the other" : "B") + ", proven (" +
          deviation_in_words(answer, whole) + ")";
@@ -332,6 +346,10 @@ CertifiedInterval interval_of(const Answer& answer) {
   const Report& r = answer.a_to_b;
   if (!answer.b_to_a) return {r.lower, r.upper, r.gap(), r.status};
   return symmetric_interval(r, *answer.b_to_a);
+}
+
+Diagonal diagonal_of_a(const Answer& answer) {
+  return {answer.a_to_b.diagonal_a, answer.inputs[0].place.delta};
 }
 
 Enclosure share_within(const Answer& answer, bool back) {

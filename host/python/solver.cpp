@@ -266,7 +266,7 @@ SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
   if (question.max_sides) refuse_value("max", kExpected, given.at("max"));
   const FloatEnvironment ours;
   SimplifyOptions options;
-  options.max = limit_in_files(*question.max, "max", a.unit, diagonal(bounding_box(a)));
+  options.max = limit_in_files(*question.max, "max", a.unit, diagonal_of(a));
   options.one_way = given.flag("one_way");
   options.lock_borders = given.flag("lock_borders");
   options.rounds_to_float = given.flag("float32");

@@ -176,7 +176,7 @@ double draw_places(const Sheet& sheet, const MapLegend& legend, const Area& area
     const double x = area.x + 32 * u, column = 118 * u;
     write(sheet.canvas, {x, y + 0.36 * size}, text,
           {fitted_size(text, size, column - 8 * u), kInk, Align::kLeft});
-    const std::string at = point_text(place.point, diagonal_of(sheet.picture.mesh));
+    const std::string at = point_text(place.point, drawn_diagonal_of(sheet.picture.mesh));
     write(sheet.canvas, {x + column, y + 0.36 * size}, at,
           {fitted_size(at, size, area.right() - x - column), kGrey, Align::kLeft});
   }

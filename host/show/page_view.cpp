@@ -120,7 +120,7 @@ Json place_view(const Answer& answer, const Picture& drawn, const MapPlace& plac
   const std::string face = (drawn.mesh.are_points ? "point " : "face ") +
                            std::to_string(drawn.mesh.file_faces.of(place.face));
   return {{"key", key},
-          {"where", point_text(place.point, drawing::diagonal_of(drawn.mesh))},
+          {"where", point_text(place.point, drawing::drawn_diagonal_of(drawn.mesh))},
           {"length", length},
           {"face", known == length ? face : face + ", " + known},
           {"label", key + ": " + length},

@@ -1,6 +1,8 @@
 // A length to stay within.
 #pragma once
 
+#include <algorithm>
+
 namespace vkh {
 
 /// A length in the files' units, rounded down and up to doubles: a distance of at most `within` is
@@ -13,9 +15,13 @@ struct Limit {
 struct SidedLimits {
   Limit over, under;
   /// The limit of points whose side is not known.
-  const Limit& smaller() const { return over.within <= under.within ? over : under; }
+  Limit smaller() const {
+    return {std::min(over.within, under.within), std::min(over.beyond, under.beyond)};
+  }
   /// The limit that no point may exceed.
-  const Limit& larger() const { return over.within <= under.within ? under : over; }
+  Limit larger() const {
+    return {std::max(over.within, under.within), std::max(over.beyond, under.beyond)};
+  }
 };
 
 }  // namespace vkh
