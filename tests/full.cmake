@@ -23,7 +23,7 @@ if(NOT VKH_SANITIZE)
                  python_life python_fork python_lost python_distances python_distances_life)
   # A minute and more each: the same kernels with more cases, compiled for another card or system, and
   # the examples of clusters.
-  vkh_label(nightly metrics_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
+  vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
                     proven_placing batch_killed clang_all driver_lavapipe128_more platform_arm64 platform_libcxx
                      platform_arm64_more platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
                      slurm dask clusters points_many)

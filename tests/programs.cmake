@@ -4,6 +4,7 @@ set(VKH_TESTS_ALONE
   "/verification/math/"   # at the build's own optimization, and rebuilt one by one by tools/mutation.py
   "/faults/"              # layers and failing allocations, from before main on
   "/frame_test"           # as math's
+  "/diagonal_test"        # as math's
   "/read_cost_test"       # replaces operator new
   "/aligned_glm_test")    # macros of GLM
 list(JOIN VKH_TESTS_ALONE "|" VKH_TESTS_ALONE)

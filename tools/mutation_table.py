@@ -14,6 +14,7 @@ DYADIC = "shaders/math/dyadic.h"
 CELL = "shaders/report/cell.h"
 LOWER = "shaders/math/lower.h"
 FRAME = "host/solve/frame.cpp"
+LENGTH = "host/base/length.cpp"
 
 ON_TWO = ["lib_two_float_test", "lib_attack_test", "lib_model_test"]
 ON_CERTIFIED = ["lib_attack_test", "lib_certified_test", "lib_model_test"]
@@ -24,6 +25,7 @@ ON_BARY = ["lib_attack_test", "lib_bary_test", "lib_model_test"]
 ON_CELL = ["lib_cell_model_test", "lib_cell_test"]
 ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
+ON_LENGTH = ["diagonal_test"]
 
 
 def row(name, file, old, new, tests, nth=1):
@@ -223,6 +225,11 @@ ROWS = [
     row("length_down", FRAME, "? std::nextafter(length, 0.0) : length", ["? length : length"], ON_FRAME),
     row("length_up (frame)", FRAME, "? std::nextafter(length, std::numeric_limits<double>::infinity())",
         ["? length"], ON_FRAME),
+
+    # host/base/length.cpp
+    row("the diagonal's share of delta", LENGTH, "kDiagonalPerDelta = 3.4642",
+        ["kDiagonalPerDelta = 3.464", "kDiagonalPerDelta = 1.7321", "kDiagonalPerDelta = 0"], ON_LENGTH),
+    row("the ulps around a share", LENGTH, "kUlps = 16", ["kUlps = 2", "kUlps = 1", "kUlps = 0"], ON_LENGTH),
 ]
 
 QUICK = {"kUlp2", "norm_up", "bound_u2's worst corner", "place's second edge"}

@@ -20,10 +20,10 @@ std::string trimmed(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
 }
 
-Limit limit_of(const std::string& word, const std::string& file_unit, double diagonal_a) {
+Limit limit_of(const std::string& word, const std::string& file_unit, const Diagonal& of_a) {
   double number = 0;
   const std::string text = parse_number(word, number) ? word + "abs" : word;
-  return in_files(parse_length("max", text, PlainNumber::kRefused), "max", file_unit, diagonal_a);
+  return limit_in_files(parse_length("max", text, PlainNumber::kRefused), "max", file_unit, of_a);
 }
 
 /// The faces' property `max`: a length in the files' unit, as the file has it.
@@ -56,7 +56,7 @@ std::vector<Limit> limits_of_triangles(const Mesh& mesh, std::vector<Limit> limi
 
 std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
                                     const Limit& otherwise, const std::string& file_unit,
-                                    double diagonal_a) {
+                                    const Diagonal& of_a) {
   const uint64_t face_count = mesh.file_faces.count(mesh.faces.size());
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) reject(path, "", "no file to be read", "a CSV of face, max");
@@ -81,7 +81,7 @@ std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
     if (named[face]) reject(path, place, "face " + word + " once more", "each face once");
     named[face] = true;
     try {
-      limits[face] = limit_of(max, file_unit, diagonal_a);
+      limits[face] = limit_of(max, file_unit, of_a);
     } catch (const UsageError& error) {
       reject(path, place, vkh::quoted(max), std::string("face, max; ") + error.what());
     }

@@ -17,6 +17,6 @@ namespace vkh {
 /// InputError with file and line or face, also for a face that is named twice or does not exist.
 std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
                                     const Limit& otherwise, const std::string& file_unit,
-                                    double diagonal_a);
+                                    const Diagonal& of_a);
 
 }  // namespace vkh

@@ -20,7 +20,7 @@ namespace {
 constexpr double kPartOfTime = 0.85;  // adding up and the outputs need the rest
 
 Limit resolved(const Length& length, const char* option, const Answer& answer) {
-  return in_files(length, option, answer.unit, answer.a_to_b.diagonal_a);
+  return in_files(length, option, answer.unit, diagonal_of_a(answer));
 }
 
 // Returns each band as two: rounded down, and up.
@@ -28,8 +28,8 @@ std::vector<Limit> bands_of(const Question& question, const Answer& answer) {
   std::vector<Limit> bands;
   if (answer.max && (question.area || question.statistics)) bands.push_back(answer.max->limit);
   for (const Length& band : question.bands) {
-    bands.push_back(limit_in_files(band, question.option("bands").c_str(), answer.unit,
-                                   answer.a_to_b.diagonal_a));
+    bands.push_back(
+        limit_in_files(band, question.option("bands").c_str(), answer.unit, diagonal_of_a(answer)));
   }
   return bands;
 }
@@ -124,7 +124,7 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
   if (question.max_distance)
     options.max_distance =
         limit_in_files(*question.max_distance, question.option("max-distance").c_str(),
-                       at.answer.unit, at.answer.a_to_b.diagonal_a);
+                       at.answer.unit, diagonal_of_a(at.answer));
   for (const Limit& band : bands_of(question, at.answer))
     options.bands.insert(options.bands.end(), {band.within, band.beyond});
   options.enough = question.area;

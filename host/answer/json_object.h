@@ -30,6 +30,12 @@ class JsonObject {
              std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : std::string("null"));
     add((key + "_hex").c_str(), hex_float(value));
   }
+  /// Both ends, and the estimate between them, which is read back as the same double.
+  void add_enclosure(const Enclosure& e) {
+    add_bound("lower", e.lower, Rounding::kDown);
+    add_bound("upper", e.upper, Rounding::kUp);
+    if (e.estimate) add_text("estimate", decimal_between(*e.estimate, e.lower, e.upper));
+  }
   std::string text() const { return "{" + members_ + "}"; }
 
  private:

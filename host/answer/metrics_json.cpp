@@ -9,9 +9,7 @@ namespace {
 
 std::string metric_json(const Metric& metric, const Json& unit) {
   JsonObject json;
-  json.add_bound("lower", metric.value.lower, Rounding::kDown);
-  json.add_bound("upper", metric.value.upper, Rounding::kUp);
-  if (metric.value.estimate) json.add("estimate", *metric.value.estimate);
+  json.add_enclosure(metric.value);
   json.add("unit", unit);
   json.add("met", metric.is_met);
   if (metric.jump) json.add("jump", true);

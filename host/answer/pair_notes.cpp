@@ -153,14 +153,17 @@ std::optional<Note> note_on_place(const Box& a, const Box& b, const std::string&
 MeshShape shape_of(const Mesh& mesh) { return {bounding_box(mesh), principal_axes_of(mesh)}; }
 
 std::vector<Note> notes_on_pair(const MeshShape& shape_a, const MeshShape& shape_b,
-                                const std::string& unit, const std::string& unit_option) {
+                                const std::string& unit, const std::string& unit_option,
+                                bool is_fitted) {
   const Box &a = shape_a.box, &b = shape_b.box;
   std::vector<Note> notes;
   const std::vector<Ratio> all = ratios(a, b);
   const std::optional<double> factor = unit_factor(a, b, all);
+  std::optional<Note> turn;
+  if (!is_fitted) turn = note_on_turn(shape_a.axes, shape_b.axes);
   if (factor) {
     notes.push_back(note_on_units(*factor, unit_option));
-  } else if (std::optional<Note> turn = note_on_turn(shape_a.axes, shape_b.axes)) {
+  } else if (turn) {
     notes.push_back(std::move(*turn));
   } else if (std::optional<Note> note =
                  note_on_size(all, difference_in_shape(shape_a.axes, shape_b.axes) <= kAlike)) {
@@ -174,7 +177,7 @@ std::vector<Note> notes_on_pair(const MeshShape& shape_a, const MeshShape& shape
 
 bool is_odd_pair(NoteCode code) {
   return code == NoteCode::kUnits || code == NoteCode::kSize || code == NoteCode::kTurn ||
-         code == NoteCode::kApart;
+         code == NoteCode::kApart || code == NoteCode::kMirrored;
 }
 
 std::string clause_of(const Note& note) {

@@ -23,9 +23,10 @@ MeshShape shape_of(const Mesh& mesh);
 /// or over 1.25 times B's on an axis; and `apart`, the boxes are a hundredth of B's diagonal apart,
 /// or their centres a tenth. Axes on which both are under a thousandth of the smaller diagonal do
 /// not count. `unit` is the coordinates'; empty: unknown. `unit_option` begins the names of the
-/// options that convert A.
+/// options that convert A. `is_fitted`: A lies as a fit has turned it. Axes that are turned then
+/// tell of another shape, and `turn` is left out.
 std::vector<Note> notes_on_pair(const MeshShape& a, const MeshShape& b, const std::string& unit,
-                                const std::string& unit_option = "--unit");
+                                const std::string& unit_option = "--unit", bool is_fitted = false);
 
 /// Whether an answer's first line warns of it: the pair itself is odd.
 bool is_odd_pair(NoteCode code);

@@ -140,8 +140,9 @@ std::string in_words(const SimplifyAnswer& answer) {
            grouped(answer.files.back().counts.faces) + " of " + all +
            (answer.files.size() < answer.levels ? "; " + fewer_words(answer) : "");
   const SimplifiedFile& file = answer.files[0];
+  const CertifiedInterval& found = file.deviation.interval;
   return grouped(file.counts.faces) + " of " + all + " (largest deviation " +
-         largest_words(file.deviation, answer.unit) + ")";
+         length_words(decimal_inside(found.upper, found.lower, found.upper, 4), answer.unit) + ")";
 }
 
 void print_table(std::ostream& out, const SimplifyAnswer& answer) {

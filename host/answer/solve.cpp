@@ -43,7 +43,7 @@ Report gate(const GatedSide& side, const SolveOptions& options, Solver& solver,
   std::vector<Limit> limits = side.given.value_or(std::vector<Limit>());
   if (!side.file.empty())
     limits = read_face_limits(side.file, side.from, answer.max->limit, answer.unit,
-                              answer.a_to_b.diagonal_a);
+                              diagonal_of_a(answer));
   FaceGate found = gate_faces(solver, side.from, side.to, limits, options);
   side.limits = FaceLimits{.path = side.file,
                            .within = found.within,

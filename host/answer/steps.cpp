@@ -214,6 +214,12 @@ void add_notes_on_fit(Answer& answer) {
                                    "another place of A is about as close to B (" +
                                        rms_text(*fit.rival, answer) + "): is the part symmetric?",
                                    {*fit.rival, answer.unit}));
+  if (fit.mirrored)
+    answer.notes.push_back(note_of(
+        NoteCode::kMirrored,
+        "A looks like a mirror image of B: mirrored, all of it would lie " +
+            rms_text(*fit.mirrored, answer) + " from B (root mean square): was one axis reversed?",
+        {*fit.mirrored, answer.unit}));
 }
 
 /// From a surface to points the farthest places lie between points.
@@ -250,7 +256,7 @@ Enclosure range_in_files(const std::array<Length, 2>& range, const Answer& answe
   const auto resolved = [&](const Length& length) {
     return length.number == 0
                ? 0
-               : in_files(length, "--range", answer.unit, answer.a_to_b.diagonal_a).within;
+               : in_files(length, "--range", answer.unit, diagonal_of_a(answer)).within;
   };
   const Enclosure ends{resolved(range[0]), resolved(range[1])};
   if (ends.lower > ends.upper)
@@ -262,13 +268,14 @@ Enclosure range_in_files(const std::array<Length, 2>& range, const Answer& answe
 namespace {
 
 /// Resolves limits that differ by side: the larger one is what no point may exceed.
-void take_sides(const Question& question, double diagonal_a, Answer& answer) {
+void take_sides(const Question& question, const Diagonal& of_a, Answer& answer) {
   AskedSides& sides = *answer.max->sides;
   const std::string option = question.option("max");
-  sides.limits = {limit_in_files(sides.over, option.c_str(), answer.unit, diagonal_a),
-                  limit_in_files(sides.under, option.c_str(), answer.unit, diagonal_a)};
+  sides.limits = {limit_in_files(sides.over, option.c_str(), answer.unit, of_a),
+                  limit_in_files(sides.under, option.c_str(), answer.unit, of_a)};
   answer.max->limit = sides.limits.larger();
-  answer.max->length = &sides.limits.larger() == &sides.limits.over ? sides.over : sides.under;
+  const bool is_over = sides.limits.over.within > sides.limits.under.within;
+  answer.max->length = is_over ? sides.over : sides.under;
 }
 
 }  // namespace
@@ -360,22 +367,23 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   check_area(question, a);
   if (question.symmetric) check_area(question, b);
   const double farthest = farthest_in(join(box_a, box_b), add_up(a.delta, b.delta));
-  const double diagonal_a = diagonal(box_a);
+  const Diagonal of_a(diagonal(box_a), a.delta);
   answer.inputs = {input_of(a), input_of(b)};
   answer.unit = units.b.empty() ? units.a : units.b;
   answer.notes = notes_on_units(a, units);
   answer.placed = placed_of(question, a);
   answer.inputs[0].box = box_a;
   answer.inputs[1].box = box_b;
-  for (Note& note : notes_on_pair(shape_a, shape_b, answer.unit, question.option("unit")))
+  const bool is_fitted = a.placed && a.placed->fit;
+  for (Note& note :
+       notes_on_pair(shape_a, shape_b, answer.unit, question.option("unit"), is_fitted))
     answer.notes.push_back(std::move(note));
   for (Report* r : {&answer.a_to_b, answer.b_to_a ? &*answer.b_to_a : nullptr}) {
     if (r == nullptr) continue;
-    r->diagonal_a = diagonal_a;
+    r->diagonal_a = of_a.held();
     r->upper = farthest;
     r->tolerance =
-        in_files(question.tolerance, question.option("tol").c_str(), answer.unit, diagonal_a)
-            .within;
+        in_files(question.tolerance, question.option("tol").c_str(), answer.unit, of_a).within;
   }
   if (question.map_range) (void)range_in_files(*question.map_range, answer);
   add_note_on_stretch(box_a, answer);
@@ -384,7 +392,7 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   for (Input& input : answer.inputs) drop_small_ambiguities(answer.a_to_b.tolerance, input);
   // A run with a limit may end by that, whatever its tolerance is.
   const bool is_share = question.tolerance.of == Length::Of::kDiagonal;
-  if (is_share && diagonal_a == 0 && !question.max)
+  if (is_share && of_a.held() == 0 && !question.max)
     answer.notes.push_back(
         note_of(NoteCode::kTolerance, "A is one point, so that " + question.tolerance.requested +
                                           " of its diagonal is 0: give " + question.option("tol") +
@@ -392,8 +400,8 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
                                           "1e-6abs"));
   if (question.max)
     answer.max->limit =
-        limit_in_files(*question.max, question.option("max").c_str(), answer.unit, diagonal_a);
-  if (question.max_sides) take_sides(question, diagonal_a, answer);
+        limit_in_files(*question.max, question.option("max").c_str(), answer.unit, of_a);
+  if (question.max_sides) take_sides(question, of_a, answer);
   if (!question.face_max_a.empty()) answer.max->faces_a->faces = a.faces.size();
   if (!question.face_max_b.empty()) answer.max->faces_b->faces = b.faces.size();
   return farthest;
@@ -413,7 +421,7 @@ SolveOptions solve_options(const Question& question, const Answer& known) {
   if (question.known_lower)
     options.known_lower =
         limit_in_files(*question.known_lower, question.option("known-lower").c_str(), known.unit,
-                       known.a_to_b.diagonal_a)
+                       diagonal_of_a(known))
             .within;
   return options;
 }

@@ -6,9 +6,7 @@ namespace {
 
 std::string enclosure_json(const Enclosure& e, const Json& unit) {
   JsonObject json;
-  json.add_bound("lower", e.lower, Rounding::kDown);
-  json.add_bound("upper", e.upper, Rounding::kUp);
-  if (e.estimate) json.add("estimate", *e.estimate);
+  json.add_enclosure(e);
   json.add("unit", unit);
   return json.text();
 }

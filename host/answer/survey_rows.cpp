@@ -22,10 +22,16 @@ std::string enclosure(const Enclosure& e, const std::string& unit) {
   return text;
 }
 
+// What a figure probably is, with the digits that matter beside `gap`, or as many as are inside.
+std::string likely(const Enclosure& e, double gap) {
+  const double value = e.estimate.value_or(e.lower);
+  return decimal_inside(value, e.lower, e.upper, digits_that_matter(value, gap));
+}
+
 // A figure: what it probably is, and the interval that it is proven to lie in.
 std::string figure(const Enclosure& e, const std::string& unit) {
   if (!e.estimate || !(e.lower < e.upper)) return enclosure(e, unit);
-  return number(*e.estimate, e.upper - e.lower, Rounding::kDown) + ", in " + enclosure(e, unit);
+  return likely(e, e.upper - e.lower) + ", in " + enclosure(e, unit);
 }
 
 // Converts to percent, outward: 100 times a share is rounded, unless it is 0 or 1.
@@ -221,8 +227,7 @@ constexpr double kShownPercent = 0.01;
 // Three digits, or those that the interval leaves.
 std::string likely_text(const Enclosure& e, double least_gap) {
   if (!std::isfinite(e.upper)) return "not known";
-  const double gap = std::max(e.upper - e.lower, least_gap);
-  return number(e.estimate.value_or(e.lower), gap, Rounding::kDown);
+  return likely(e, std::max(e.upper - e.lower, least_gap));
 }
 
 std::string in_unit(const std::string& text, const std::string& unit) {

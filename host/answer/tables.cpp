@@ -81,7 +81,7 @@ void add_names_of_metrics(const CsvColumns& with, std::vector<std::string>& cell
 
 void add_figure(const Metric& metric, std::vector<std::string>& cells) {
   const Enclosure& e = metric.value;
-  cells.push_back(e.estimate ? shortest_decimal(*e.estimate) : "");
+  cells.push_back(e.estimate ? decimal_between(*e.estimate, e.lower, e.upper) : "");
   cells.push_back(bound(e.lower, Rounding::kDown));
   cells.push_back(bound(e.upper, Rounding::kUp));
 }

@@ -34,9 +34,9 @@ std::string point_text(const Answer& answer, const SurfacePoint& p, bool of_b) {
 
 // Returns upper as a share in percent.
 std::string share_of_diagonal(const Answer& answer, double upper) {
-  const double diagonal = answer.a_to_b.diagonal_a;
+  const double diagonal = diagonal_of_a(answer).least();
   if (!(diagonal > 0)) return "";
-  const double share = 100 * divide_up(upper, diagonal);
+  const double share = multiply_up(100, divide_up(upper, diagonal));
   return " (" + decimal(share, 3, Rounding::kUp) + " % of A's diagonal)";
 }
 
@@ -109,14 +109,17 @@ std::string limits_in_words(const Answer& answer) {
          " under it";
 }
 
-/// A distance beyond a limit, as a FAIL begins: four digits where the farthest point is known, or
-/// more where the limit is nearer. The text never rounds down to the limit itself.
+/// A length that is known: four digits, or as many as it takes to lie in the enclosure.
+std::string known_length(const Answer& answer, const Enclosure& e) {
+  constexpr int kDigits = 4;
+  return with_unit(decimal_inside(e.lower, e.lower, e.upper, kDigits), answer);
+}
+
+/// A distance beyond a limit, as a FAIL begins: the text is never the limit itself, or under it.
 std::string beyond_in_words(const Answer& answer, const Enclosure& e, const Limit& limit) {
+  if (is_farthest_known(e.lower, e.upper)) return "FAIL  " + known_length(answer, e);
   const double margin = std::min(e.lower - limit.beyond, e.upper - e.lower);
-  const bool is_known = is_farthest_known(e.lower, e.upper);
-  const double shown =
-      is_known ? std::min(e.lower - limit.beyond, std::max(margin, 2e-3 * e.lower)) : margin;
-  return (is_known ? "FAIL  " : "FAIL  at least ") + length_down(answer, e.lower, shown);
+  return "FAIL  at least " + length_down(answer, e.lower, margin);
 }
 
 std::string failure_in_words(const Answer& answer, bool back) {
@@ -130,8 +133,7 @@ std::string failure_in_words(const Answer& answer, bool back) {
                         : " at a point of " + from;
   if (answer.max->sides) return text + ", beyond both limits, " + limits_in_words(answer);
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
-  return text + ", limit of its face " +
-         with_unit(number_text(limit.within, std::chars_format::general, 9), answer);
+  return text + ", limit of its face " + with_unit(length_in_words(limit), answer);
 }
 
 // Names the unit of the count: a polygon's triangles are more than it.
@@ -205,8 +207,7 @@ std::string deviation_in_words(const Answer& answer, const CertifiedInterval& wh
   if (whole.upper == 0) return "no deviation";
   const double gap = gap_as_printed(answer, whole.lower, whole.upper);
   if (is_farthest_known(whole.lower, whole.upper))
-    return "largest deviation " +
-           length_down(answer, whole.lower, std::max(gap, 2e-3 * whole.lower));
+    return "largest deviation " + known_length(answer, {whole.lower, whole.upper});
   if (whole.upper <= 0.5 * answer.max->limit.within)
     return "largest deviation at most " + length_up(answer, whole.upper, gap);
   return "largest deviation in " + interval_text(answer, whole) +
@@ -255,6 +256,20 @@ std::string sides_in_words(const Answer& answer) {
          ", where points without a side count as either" + survey_hint(answer, false);
 }
 
+/// Says what would decide a limit that lies in the interval. A limit that is a share of a diagonal
+/// is only known as well as that: no tolerance decides what lies within its ends.
+std::string limit_hint(const Answer& answer, const CertifiedInterval& whole) {
+  const Limit& limit = answer.max->limit;
+  const Diagonal of_a = diagonal_of_a(answer);
+  const bool is_rounded =
+      answer.max->length.of == Length::Of::kDiagonal && of_a.least() < of_a.most();
+  if (!is_rounded || whole.lower < limit.within || whole.upper > limit.beyond)
+    return hint(answer, whole.status);
+  return "; A's coordinates were rounded, so that its diagonal is known to within " +
+         with_unit(decimal(width_up(of_a.least(), of_a.most()), 3, Rounding::kUp), answer) +
+         ": give the limit as a length";
+}
+
 std::string gate_in_words(const Answer& answer) {
   const CertifiedInterval whole = interval_of(answer);
   const Asked& max = *answer.max;
@@ -275,7 +290,7 @@ std::string gate_in_words(const Answer& answer) {
   }
   if (verdict == Verdict::kUndecided)
     return "UNDECIDED  the limit " + asked + " lies in " + interval_text(answer, whole) +
-           hint(answer, whole.status);
+           limit_hint(answer, whole);
   return std::string("PASS  every point of A") + (answer.b_to_a ? " and of B" : "") +
          " is within " + asked + " of " + (answer.b_to_a ? "the other" : "B") + ", proven (" +
          deviation_in_words(answer, whole) + ")";
@@ -344,6 +359,10 @@ CertifiedInterval interval_of(const Answer& answer) {
   const Report& r = answer.a_to_b;
   if (!answer.b_to_a) return {r.lower, r.upper, r.gap(), r.status};
   return symmetric_interval(r, *answer.b_to_a);
+}
+
+Diagonal diagonal_of_a(const Answer& answer) {
+  return {answer.a_to_b.diagonal_a, answer.inputs[0].place.delta};
 }
 
 Enclosure share_within(const Answer& answer, bool back) {

@@ -147,7 +147,7 @@ void SimplifyCommand::take_limit() {
     throw UsageError("--out '" + asked_.out + "': glTF is in metres, and A is in " + answer_.unit +
                      ": write .ply, .obj or .stl");
   answer_.max = *question_.max;
-  answer_.limit = limit_in_files(answer_.max, "--max", answer_.unit, diagonal(bounding_box(a_)));
+  answer_.limit = limit_in_files(answer_.max, "--max", answer_.unit, diagonal_of(a_));
 }
 
 SimplifyOptions SimplifyCommand::options() {

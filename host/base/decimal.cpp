@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "host/base/from_chars.h"
 
@@ -40,6 +42,12 @@ void increment(Digits& number) {
   ++number.exponent;
 }
 
+double number_of(const std::string& text) {
+  double number = 0;
+  number_from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
 void round_to(Digits& number, size_t digits, bool away_from_zero) {
   if (digits >= number.digits.size()) return;
   const bool inexact = number.digits.find_first_not_of('0', digits) != std::string::npos;
@@ -53,6 +61,50 @@ std::string scientific(const Digits& number) {
   return text.append(1, 'e').append(std::to_string(number.exponent));
 }
 
+/// Compares |x| with |y|: negative if it is smaller.
+int compare(const Digits& x, const Digits& y) {
+  if (x.exponent != y.exponent) return x.exponent < y.exponent ? -1 : 1;
+  const size_t digits = std::max(x.digits.size(), y.digits.size());
+  const auto padded = [&](const Digits& number) {
+    return number.digits + std::string(digits - number.digits.size(), '0');
+  };
+  return padded(x).compare(padded(y));
+}
+
+/// Two ends of 0 or more, upper > 0.
+struct Ends {
+  std::optional<Digits> lower = {};  ///< none: 0
+  Digits upper = {};
+
+  bool contain(const Digits& number) const {
+    return (!lower || compare(*lower, number) <= 0) && compare(number, upper) <= 0;
+  }
+};
+
+Ends ends_of(double lower, double upper) {
+  Ends ends;
+  ends.upper = exact_digits(std::min(upper, std::numeric_limits<double>::max()));
+  if (lower > 0) ends.lower = exact_digits(lower);
+  return ends;
+}
+
+/// The same, rounded outward as JSON has them.
+Ends printed_ends_of(double lower, double upper) {
+  Ends ends = ends_of(lower, upper);
+  if (ends.lower) round_to(*ends.lower, kJsonDigits, false);
+  round_to(ends.upper, kJsonDigits, true);
+  return ends;
+}
+
+/// Both decimals next to a number, the nearer one first.
+std::array<Digits, 2> next_to(const Digits& exact, size_t digits) {
+  Digits down = exact, up = exact;
+  round_to(down, digits, false);
+  round_to(up, digits, true);
+  const bool is_up = exact.digits.size() > digits && exact.digits[digits] >= '5';
+  return is_up ? std::array{up, down} : std::array{down, up};
+}
+
 std::string positional(const Digits& number) {
   const std::string& d = number.digits;
   if (number.exponent < 0) {
@@ -61,6 +113,12 @@ std::string positional(const Digits& number) {
   const size_t whole = static_cast<size_t>(number.exponent) + 1;
   if (d.size() <= whole) return d + std::string(whole - d.size(), '0');
   return d.substr(0, whole) + "." + d.substr(whole);
+}
+
+std::string text_of(Digits number) {
+  number.digits.erase(number.digits.find_last_not_of('0') + 1);
+  const bool readable = number.exponent >= -5 && number.exponent < kJsonDigits;
+  return readable ? positional(number) : scientific(number);
 }
 
 }  // namespace
@@ -73,10 +131,37 @@ std::string decimal(double value, int digits, Rounding rounding) {
   Digits number = exact_digits(std::abs(value));
   round_to(number, static_cast<size_t>(std::max(digits, 1)),
            negative == (rounding == Rounding::kDown));
-  number.digits.erase(number.digits.find_last_not_of('0') + 1);
-  const bool readable = number.exponent >= -5 && number.exponent < kJsonDigits;
-  const std::string magnitude = readable ? positional(number) : scientific(number);
+  const std::string magnitude = text_of(std::move(number));
   return negative ? std::string("-").append(magnitude) : magnitude;
+}
+
+std::string decimal_inside(double value, double lower, double upper, int digits) {
+  if (!std::isfinite(value) || value == 0) return decimal(value, 1, Rounding::kDown);
+  if (value < 0) return "-" + decimal_inside(-value, -upper, -lower, digits);
+  constexpr int kEnough = 20;  // neighbouring doubles have a decimal of so many digits between them
+  const Digits exact = exact_digits(value);
+  const Ends ends = ends_of(lower, upper);
+  const int most = lower < upper ? kEnough : kJsonDigits - 1;
+  for (int n = std::max(digits, 1); n <= most; ++n) {
+    for (Digits& number : next_to(exact, static_cast<size_t>(n))) {
+      if (ends.contain(number)) return text_of(std::move(number));
+    }
+  }
+  return shortest_decimal(value);
+}
+
+std::string decimal_between(double value, double lower, double upper) {
+  if (!std::isfinite(value) || value == 0) return decimal(value, 1, Rounding::kDown);
+  if (value < 0) return "-" + decimal_between(-value, -upper, -lower);
+  const Digits exact = exact_digits(value);
+  const Ends ends = printed_ends_of(lower, upper);
+  for (size_t n = 1; n < kJsonDigits; ++n) {
+    for (Digits& number : next_to(exact, n)) {
+      std::string text = ends.contain(number) ? text_of(std::move(number)) : std::string();
+      if (!text.empty() && number_of(text) == value) return text;
+    }
+  }
+  return decimal(value, kJsonDigits, Rounding::kDown);
 }
 
 std::string grouped(uint64_t count) {
@@ -115,9 +200,7 @@ std::string shortest_decimal(double value) {
   std::string text;
   for (int digits = 6; digits <= 17; ++digits) {
     text = number_text(value, std::chars_format::general, digits);
-    double read = 0;
-    number_from_chars(text.data(), text.data() + text.size(), read);
-    if (read == value) break;
+    if (number_of(text) == value) break;
   }
   return text;
 }

@@ -17,6 +17,16 @@ inline constexpr int kJsonDigits = 18;  ///< rounded outward, and read back as t
 /// is no number.
 std::string decimal(double value, int digits, Rounding rounding);
 
+/// Writes `value`, which lies in [lower, upper], without saying "at least" or "at most": the
+/// decimal of the fewest digits, `digits` or more, that lies in [lower, upper], too. Of the two
+/// that are next to `value` it is the nearer one, if it is inside. Where both ends are one double
+/// that has more than 17 digits, it is the shortest decimal that is read back as that double.
+std::string decimal_inside(double value, double lower, double upper, int digits);
+
+/// The decimal of the fewest digits that is read back as `value` and lies between the ends as JSON
+/// has them: rounded outward to kJsonDigits.
+std::string decimal_between(double value, double lower, double upper);
+
 /// Writes the text of printf with %.{digits}f, e or g in the C locale. printf itself takes the
 /// program's locale, whose decimal point may be a comma.
 std::string number_text(double value, std::chars_format format, int digits);

@@ -12,6 +12,7 @@
 #include "host/base/float128.h"
 #include "host/base/from_chars.h"
 #include "host/base/meant.h"
+#include "host/base/rounding.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -44,20 +45,31 @@ bool is_of_files(const std::string& name) {
 
 constexpr const char* kUnitNames = "um, mm, cm, m, in or ft";
 
-/// Encloses x, the result of a product and a quotient or two in Float128 (113 bits) from a number
-/// of 53 bits. The number was rounded to nearest, twice if it was a percentage. A diagonal is off
-/// by six ulps at most: its extents are rounded, by 2^-53 of themselves, and hypot3 adds 5 of these
-/// (host/base/hypot3.h), where an ulp is at least 2^-53.
-Limit around(Float128 x) {
+/// How far A's diagonal moves at most, for each unit of delta. A and its exact surface are within
+/// delta of each other, so that each of the six planes of the bounding box moves by delta at most,
+/// and each extent by 2 delta. The diagonal is the norm of three extents: by the triangle
+/// inequality it moves by the norm of (2, 2, 2) delta, which is 2 sqrt(3) = 3.46410... delta.
+/// Six corners that each move along their own axis reach it.
+constexpr double kDiagonalPerDelta = 3.4642;
+
+/// Encloses what lies between `least` and `most`, each the result of a product and a quotient or
+/// two in Float128 (113 bits) from a number of 53 bits. The number was rounded to nearest, twice if
+/// it was a percentage. A diagonal is off by six times 2^-53 of itself at most: its extents are
+/// rounded, by 2^-53 of themselves, and hypot3 adds 5 of these (host/base/hypot3.h). Of the least
+/// diagonal, which is no less than half of it where it decides, that is twelve times 2^-53. With
+/// the number's two and the last rounding's one that is under 16 ulps, which are 2^-53 each at
+/// least.
+Limit around(Float128 least, Float128 most) {
   constexpr int kUlps = 16;
-  const auto nearest = static_cast<double>(x);
-  Limit limit{nearest, nearest};
+  Limit limit{static_cast<double>(least), static_cast<double>(most)};
   for (int ulp = 0; ulp < kUlps; ++ulp) {
     limit.within = std::nextafter(limit.within, 0.0);
     limit.beyond = std::nextafter(limit.beyond, std::numeric_limits<double>::infinity());
   }
   return limit;
 }
+
+Limit around(Float128 x) { return around(x, x); }
 
 /// Returns "did you mean 0.1mm? " if the meaning is known and differs from the typed text.
 std::string proposal(const std::string& meant, const std::string& typed) {
@@ -71,6 +83,18 @@ std::string expected_of(PlainNumber plain) {
          "0.1mm (um, cm, m, in, ft, mil and thou, too), 0.1abs in the files' own unit, 0.1% of "
          "diag(A) or "
          "1e-6diag";
+}
+
+/// Says why a share of the diagonal would decide nothing; empty: it does.
+std::string why_unknown(const Diagonal& of_a) {
+  using Doubles = std::numeric_limits<double>;
+  const double least = of_a.least(), most = of_a.most();
+  if (of_a.held() == 0) return "0";
+  if (least < of_a.held() / 2)
+    return "only known to lie between " + decimal(least, 3, Rounding::kDown) + " and " +
+           decimal(most, 3, Rounding::kUp);
+  const bool is_normal = least >= Doubles::min() && most < Doubles::max();
+  return is_normal ? "" : "beyond what a double holds to all its bits";
 }
 
 }  // namespace
@@ -126,12 +150,18 @@ double in_millimetres(double length, const std::string& unit) {
   return known == nullptr ? length : length * (known->tenths_of_micrometres / kMillimetre);
 }
 
+double Diagonal::least() const {
+  return std::max(0.0, add_down(held_, -multiply_up(kDiagonalPerDelta, delta_)));
+}
+
+double Diagonal::most() const { return add_up(held_, multiply_up(kDiagonalPerDelta, delta_)); }
+
 Limit in_files(const Length& length, const char* option, const std::string& file_unit,
-               double diagonal_a) {
+               const Diagonal& of_a) {
   const Float128 number = float128(length.number);
   Limit limit;
   if (length.of == Length::Of::kDiagonal) {
-    limit = around(number * float128(diagonal_a));
+    limit = around(number * float128(of_a.least()), number * float128(of_a.most()));
   } else if (length.of == Length::Of::kFiles) {
     limit = length.is_double ? Limit{length.number, length.number} : around(number);
   } else {
@@ -154,15 +184,12 @@ Limit in_files(const Length& length, const char* option, const std::string& file
 }
 
 Limit limit_in_files(const Length& length, const char* option, const std::string& file_unit,
-                     double diagonal_a) {
-  using Doubles = std::numeric_limits<double>;
-  const bool is_normal = diagonal_a >= Doubles::min() && diagonal_a < Doubles::max();
-  if (length.of == Length::Of::kDiagonal && !is_normal) {
+                     const Diagonal& of_a) {
+  const std::string unknown = length.of == Length::Of::kDiagonal ? why_unknown(of_a) : "";
+  if (!unknown.empty())
     throw UsageError(std::string(option) + " '" + length.requested + "': A's diagonal is " +
-                     (diagonal_a == 0 ? "0" : "beyond what a double holds to all its bits") +
-                     "; give the length itself, as 0.1abs or 0.1mm");
-  }
-  return in_files(length, option, file_unit, diagonal_a);
+                     unknown + "; give the length itself, as 0.1abs or 0.1mm");
+  return in_files(length, option, file_unit, of_a);
 }
 
 double typed_length(const Limit& limit) {

@@ -8,13 +8,12 @@
 namespace vkh {
 namespace {
 
-constexpr std::array<std::string_view, 32> kCodeNames = {
-    "polygons",   "ambiguity",    "bodies",    "short-faces", "elements",    "surfaces",
-    "calls",      "unread",       "scene",     "rotations",   "positions",   "morph",
-    "animations", "units",        "size",      "turn",        "apart",       "one-way",
-    "coverage",   "unit-assumed", "converted", "stretch",     "fit",         "poor-fit",
-    "other-fit",  "tolerance",    "memory",    "devices",     "certificate", "survey",
-    "points",     "inside-out"};
+constexpr std::array<std::string_view, 33> kCodeNames = {
+    "polygons", "ambiguity",   "bodies",    "short-faces", "elements",  "surfaces",     "calls",
+    "unread",   "scene",       "rotations", "positions",   "morph",     "animations",   "units",
+    "size",     "turn",        "apart",     "one-way",     "coverage",  "unit-assumed", "converted",
+    "stretch",  "fit",         "poor-fit",  "other-fit",   "mirrored",  "tolerance",    "memory",
+    "devices",  "certificate", "survey",    "points",      "inside-out"};
 static_assert(kCodeNames.size() == static_cast<size_t>(NoteCode::kInsideOut) + 1);
 
 }  // namespace
@@ -62,6 +61,7 @@ bool is_for_servers(NoteCode code) {
     case NoteCode::kFit:
     case NoteCode::kPoorFit:
     case NoteCode::kOtherFit:
+    case NoteCode::kMirrored:
     case NoteCode::kUnitAssumed:
     case NoteCode::kInsideOut:
       return true;

@@ -7,6 +7,7 @@
 
 #include "host/answer/rank.h"
 #include "host/base/decimal.h"
+#include "host/base/rounding.h"
 #include "host/batch/totals.h"
 #include "host/show/page_assets.h"
 #include "host/show/page_words.h"
@@ -36,9 +37,9 @@ std::string ratio_in_words(const Record& record) {
   const bool is_beyond = outcome_of(record) == Outcome::kBeyond;
   const double bound = is_beyond ? record.lower : record.upper;
   if (!std::isfinite(bound) || !(record.diagonal > 0)) return "";
-  const double ratio = bound / record.diagonal;
-  if (is_beyond) return "at least " + decimal(100 * ratio, 3, Rounding::kDown) + " %";
-  return "at most " + percent_up(ratio);
+  if (!is_beyond) return "at most " + percent_up(divide_up(bound, record.diagonal));
+  const double ratio = divide_down(bound, record.diagonal);
+  return "at least " + decimal(multiply_down(100, ratio), 3, Rounding::kDown) + " %";
 }
 
 std::string limit_in_words(const Record& record) {

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "host/base/decimal.h"
+#include "host/base/rounding.h"
 
 namespace vkh {
 namespace {
@@ -35,7 +36,9 @@ std::string in_a_row(const Record& record) {
 
 }  // namespace
 
-std::string percent_up(double ratio) { return decimal(100 * ratio, 3, Rounding::kUp) + " %"; }
+std::string percent_up(double ratio) {
+  return decimal(multiply_up(100, ratio), 3, Rounding::kUp) + " %";
+}
 
 void Totals::add(const Record& record) {
   worst_ = worse(worst_, record.code);
@@ -52,7 +55,7 @@ void Totals::add(const Record& record) {
                                      : closed_);
   put_in_order(record);
   const bool has_ratio = !has_verdict && std::isfinite(record.upper) && record.diagonal > 0;
-  if (has_ratio) ratios_.push_back(record.upper / record.diagonal);
+  if (has_ratio) ratios_.push_back(divide_up(record.upper, record.diagonal));
 }
 
 void Totals::put_in_order(const Record& record) {

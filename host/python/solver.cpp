@@ -266,7 +266,7 @@ SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
   if (question.max_sides) refuse_value("max", kExpected, given.at("max"));
   const FloatEnvironment ours;
   SimplifyOptions options;
-  options.max = limit_in_files(*question.max, "max", a.unit, diagonal(bounding_box(a)));
+  options.max = limit_in_files(*question.max, "max", a.unit, diagonal_of(a));
   options.one_way = given.flag("one_way");
   options.lock_borders = given.flag("lock_borders");
   options.rounds_to_float = given.flag("float32");
@@ -315,7 +315,7 @@ py::object align(const py::args& positional, const py::kwargs& named) {
   const FoundFit& fit = found.fit;
   return py::module_::import("vkhausdorff._align")
       .attr("Alignment")(matrix_rows(found.matrix), fit.rms, fit.share, fit.samples, fit.is_poor,
-                         fit.rival);
+                         fit.rival, fit.mirrored);
 }
 
 py::object closest(const py::args& positional, const py::kwargs& named) {

@@ -91,7 +91,7 @@ inline Box box_of(const Mesh& mesh) {
 }
 
 /// The diagonal; for a mesh that is one point, anything that is not 0.
-inline double diagonal_of(const Mesh& mesh) {
+inline double drawn_diagonal_of(const Mesh& mesh) {
   const Box box = box_of(mesh);
   const double diagonal = glm::distance(box.lo, box.hi);
   return diagonal > 0 ? diagonal : 1;
@@ -148,7 +148,7 @@ inline bool is_seen(const Mesh& mesh, const Camera& camera, glm::dvec3 point) {
   if (mesh.are_points) return is_seen_among(mesh, camera, point);
   constexpr double kSlack = 1e-5;  // fraction of the diagonal: the point's own faces are no screen
   const glm::dvec3 p = camera.pixel(point);
-  const double slack = kSlack * diagonal_of(mesh);
+  const double slack = kSlack * drawn_diagonal_of(mesh);
   return std::none_of(mesh.faces.begin(), mesh.faces.end(), [&](const glm::uvec3& f) {
     return hides(camera.pixel(mesh.vertices[f.x]), camera.pixel(mesh.vertices[f.y]),
                  camera.pixel(mesh.vertices[f.z]), p, slack);
@@ -179,7 +179,7 @@ class Views {
         options_(options),
         unit_(unit),
         spot_(spot_of(picture)),
-        diagonal_(diagonal_of(picture.mesh)),
+        diagonal_(drawn_diagonal_of(picture.mesh)),
         spacing_(spacing_of(picture.mesh)) {}
 
   const Spot& spot() const { return spot_; }

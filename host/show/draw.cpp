@@ -523,7 +523,8 @@ void check(const Picture& picture, const PictureOptions& options) {
   if (picture.field.lower.size() != picture.mesh.faces.size() ||
       picture.field.upper.size() != picture.mesh.faces.size())
     throw std::invalid_argument("a picture needs bounds for each face of its mesh");
-  const double diagonal = drawing::diagonal_of(picture.mesh);  // squares of lengths are finite
+  const double diagonal =
+      drawing::drawn_diagonal_of(picture.mesh);  // squares of lengths are finite
   if (!(diagonal > 1e-100 && diagonal < 1e100)) refuse("shows meshes of 1e-100 to 1e100 units");
   if (options.width < kLeastPictureWidth || options.height < kLeastPictureHeight)
     refuse("has at least 640x400 pixels");

@@ -176,7 +176,7 @@ double draw_places(const Sheet& sheet, const MapLegend& legend, const Area& area
     const double x = area.x + 32 * u, column = 118 * u;
     write(sheet.canvas, {x, y + 0.36 * size}, text,
           {fitted_size(text, size, column - 8 * u), kInk, Align::kLeft});
-    const std::string at = point_text(place.point, diagonal_of(sheet.picture.mesh));
+    const std::string at = point_text(place.point, drawn_diagonal_of(sheet.picture.mesh));
     write(sheet.canvas, {x + column, y + 0.36 * size}, at,
           {fitted_size(at, size, area.right() - x - column), kGrey, Align::kLeft});
   }
@@ -186,7 +186,9 @@ double draw_places(const Sheet& sheet, const MapLegend& legend, const Area& area
 namespace {
 
 std::vector<std::string> figures_of(const Sheet& sheet, const MapLegend& legend) {
-  const auto number = [&](double x) { return with_unit(sheet.picture, short_number(x)); };
+  const auto number = [&](const Enclosure& e) {
+    return with_unit(sheet.picture, estimate_text(*e.estimate, e));
+  };
   std::vector<std::string> figures;
   if (legend.scale.limit())
     figures.push_back(percent_text(legend.counts.within) + of_what(sheet.picture) +
@@ -194,14 +196,16 @@ std::vector<std::string> figures_of(const Sheet& sheet, const MapLegend& legend)
   const Statistics* s = sheet.picture.statistics;
   const bool has_mean = s != nullptr && s->mean.estimate;
   const std::string of_rest = legend.counts.left_out > 0 ? "of the rest: mean " : "mean ";
-  figures.push_back(of_rest + number(has_mean ? *s->mean.estimate : legend.counts.mean));
+  figures.push_back(of_rest + (has_mean
+                                   ? number(s->mean)
+                                   : with_unit(sheet.picture, short_number(legend.counts.mean))));
   if (s == nullptr) return figures;
-  if (s->rms.estimate) figures.back() += ", rms " + number(*s->rms.estimate);
+  if (s->rms.estimate) figures.back() += ", rms " + number(s->rms);
   std::string percentiles;
   for (const Percentile& p : s->percentiles) {
     if (p.distance.estimate && p.share > 0.9)
       percentiles += (percentiles.empty() ? "" : ", ") + shortest_decimal(100 * p.share) +
-                     " % within " + number(*p.distance.estimate);
+                     " % within " + number(p.distance);
   }
   if (!percentiles.empty()) figures.push_back(percentiles);
   return figures;

@@ -225,6 +225,7 @@ std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t mo
     MapPlace& place = places.emplace_back(grid.places()[peak]);
     if (place.is_farthest) place.distance = place.known.lower;
     if (witness) place.known.upper = std::min(place.known.upper, witness->distance.upper);
+    place.distance = std::clamp(place.distance, place.known.lower, place.known.upper);
   }
   return places;
 }
@@ -239,14 +240,15 @@ std::vector<MapPlace> worst_places(const Picture& picture) {
     if (place.is_farthest) continue;
     place.point = point_at(picture.mesh, place.face, glm::dvec3(1.0 / 3));
     place.known = picture.field.of(place.face);
+    place.distance = std::clamp(place.distance, place.known.lower, place.known.upper);
   }
   return places;
 }
 
 std::string place_text(const Picture& picture, const MapPlace& place) {
   const bool is_signed = picture.map != nullptr && picture.map->has_sides;
-  const std::string number =
-      estimate_text(place.distance, picture.limit && !is_signed ? *picture.limit : Limit{});
+  const std::string number = estimate_text(place.distance, place.known,
+                                           picture.limit && !is_signed ? *picture.limit : Limit{});
   const bool is_under = is_signed && place.side == SurfaceSide::kUnder;
   const char* sign = is_under ? "\u2212" : is_signed && place.side == SurfaceSide::kOver ? "+" : "";
   return sign + number + (picture.unit.empty() ? "" : " " + picture.unit);

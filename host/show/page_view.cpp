@@ -36,8 +36,9 @@ Json length_row(const Answer& answer, const std::string& name, const Enclosure& 
   const bool is_range = std::string(row["text"]).find(" to ") != std::string::npos;
   row["estimate"] = "";
   if (length.estimate && is_range)
-    row["estimate"] = estimate_text(*length.estimate, answer.max ? answer.max->limit : Limit{}) +
-                      (answer.unit.empty() ? "" : " " + answer.unit);
+    row["estimate"] =
+        estimate_text(*length.estimate, length, answer.max ? answer.max->limit : Limit{}) +
+        (answer.unit.empty() ? "" : " " + answer.unit);
   return row;
 }
 
@@ -45,8 +46,12 @@ double asked_share(const Answer& answer, const AreaWithin& band) {
   return is_limit(answer, band) && answer.max->area ? *answer.max->area : -1;
 }
 
-std::string percent_of(double share) {
-  return number_text(100 * share, std::chars_format::fixed, 2) + " %";
+// Two decimals, or as many as are between both ends.
+std::string estimated_percent(const Enclosure& share) {
+  const double percent = 100 * *share.estimate;
+  return decimal_inside(percent, 100 * share.lower, 100 * share.upper,
+                        digits_that_matter(percent, 1)) +
+         " %";
 }
 
 Json band_row(const Answer& answer, const AreaWithin& band, bool are_points) {
@@ -55,7 +60,7 @@ Json band_row(const Answer& answer, const AreaWithin& band, bool are_points) {
             share_text(band.share, asked_share(answer, band)));
   row["is_limit"] = is_limit(answer, band);
   const bool is_range = band.share.upper - band.share.lower >= 2e-4;
-  row["estimate"] = is_range && band.share.estimate ? percent_of(*band.share.estimate) : "";
+  row["estimate"] = is_range && band.share.estimate ? estimated_percent(band.share) : "";
   return row;
 }
 
@@ -115,7 +120,7 @@ Json place_view(const Answer& answer, const Picture& drawn, const MapPlace& plac
   const std::string face = (drawn.mesh.are_points ? "point " : "face ") +
                            std::to_string(drawn.mesh.file_faces.of(place.face));
   return {{"key", key},
-          {"where", point_text(place.point, drawing::diagonal_of(drawn.mesh))},
+          {"where", point_text(place.point, drawing::drawn_diagonal_of(drawn.mesh))},
           {"length", length},
           {"face", known == length ? face : face + ", " + known},
           {"label", key + ": " + length},

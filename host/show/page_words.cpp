@@ -36,15 +36,11 @@ std::string end_of(double value, int digits, Rounding rounding, const Limit& lim
   return text;
 }
 
-// The text of both ends, rounded to nearest, if it is the same and on the limit's same side.
-std::string common_text(const Enclosure& length, const Limit& limit) {
+// One number between both ends, if they are the same to three digits.
+std::string common_text(const Enclosure& length) {
   for (const int digits : {kMostFigureDigits, kMostFigureDigits - 1}) {
-    std::string text = nearest(length.lower, digits);
-    if (text != nearest(length.upper, digits)) continue;
-    const double printed = number_of(text);
-    if (is_on_its_side(printed, length.lower, limit) &&
-        is_on_its_side(printed, length.upper, limit))
-      return text;
+    if (nearest(length.lower, digits) == nearest(length.upper, digits))
+      return decimal_inside(length.lower, length.lower, length.upper, digits);
   }
   return "";
 }
@@ -232,7 +228,7 @@ std::string figure_text(const Enclosure& length, const Limit& limit) {
     return "at least " + end_of(length.lower, kMostFigureDigits, Rounding::kDown, limit);
   }
   if (length.lower > 0) {
-    std::string common = common_text(length, limit);
+    std::string common = common_text(length);
     if (!common.empty()) return common;
   }
   constexpr double kWide = 0.01;  // a share of the figure: a fourth digit means nothing there
@@ -247,11 +243,11 @@ std::string figure_text(const Enclosure& length, const Limit& limit) {
   return low + " to " + high;
 }
 
-std::string estimate_text(double length, const Limit& limit) {
-  std::string text = nearest(length, kMostFigureDigits);
-  for (int digits = kMostFigureDigits + 1; digits <= kAllDigits; ++digits) {
+std::string estimate_text(double length, const Enclosure& ends, const Limit& limit) {
+  std::string text;
+  for (int digits = kMostFigureDigits; digits <= kAllDigits; ++digits) {
+    text = decimal_inside(length, ends.lower, ends.upper, digits);
     if (is_on_its_side(number_of(text), length, limit)) break;
-    text = nearest(length, digits);
   }
   return text;
 }

@@ -18,8 +18,9 @@ std::string figure_text(const Enclosure& length, const Limit& limit = {});
 /// The same with the answer's unit, and its limit.
 std::string length_text(const Answer& answer, const Enclosure& length);
 
-/// Writes a length that is estimated: to four digits, or as many as keep it on its side of `limit`.
-std::string estimate_text(double length, const Limit& limit = {});
+/// Writes a length that is estimated: to four digits, or as many as keep it between its ends and on
+/// its side of `limit`.
+std::string estimate_text(double length, const Enclosure& ends, const Limit& limit = {});
 
 /// Writes a share in percent, with two decimals, rounded outward: "98.87 to 98.90 %". 0 % and 100 %
 /// are exact. With more decimals where that would be on the other side of `asked`, in [0, 1].

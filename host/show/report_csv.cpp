@@ -28,8 +28,9 @@ class FiguresTable {
       : answer_(answer), from_(back ? "B" : "A"), out_(out) {}
 
   void add(const std::string& figure, const Enclosure& e, const std::string& unit) {
-    out_ += row_text({from_, figure, e.estimate ? shortest_decimal(*e.estimate) : "",
-                      csv_end(e.lower, Rounding::kDown), csv_end(e.upper, Rounding::kUp), unit});
+    out_ +=
+        row_text({from_, figure, e.estimate ? decimal_between(*e.estimate, e.lower, e.upper) : "",
+                  csv_end(e.lower, Rounding::kDown), csv_end(e.upper, Rounding::kUp), unit});
   }
   void add_length(const std::string& figure, const Enclosure& e) { add(figure, e, answer_.unit); }
 
@@ -74,13 +75,13 @@ std::string points_csv(const Measured& measured, const PictureStyle& look) {
   for (const Side& side : sides_of(measured)) {
     size_t number = 0;
     for (const MapPlace& place : worst_places(drawn_of(side, answer, look))) {
-      const double sign = place.side == SurfaceSide::kUnder ? -1 : 1;
-      out += row_text({side.back ? "B" : "A", std::to_string(++number),
-                       shortest_decimal(place.point.x), shortest_decimal(place.point.y),
-                       shortest_decimal(place.point.z), shortest_decimal(sign * place.distance),
-                       csv_end(place.known.lower, Rounding::kDown),
-                       csv_end(place.known.upper, Rounding::kUp),
-                       std::to_string(side.mesh.file_faces.of(place.face)), answer.unit});
+      const char* sign = place.side == SurfaceSide::kUnder && place.distance > 0 ? "-" : "";
+      out += row_text(
+          {side.back ? "B" : "A", std::to_string(++number), shortest_decimal(place.point.x),
+           shortest_decimal(place.point.y), shortest_decimal(place.point.z),
+           sign + decimal_between(place.distance, place.known.lower, place.known.upper),
+           csv_end(place.known.lower, Rounding::kDown), csv_end(place.known.upper, Rounding::kUp),
+           std::to_string(side.mesh.file_faces.of(place.face)), answer.unit});
     }
   }
   return out;

@@ -26,6 +26,10 @@ constexpr double kLeastShare = 0.6;  // of the samples: fewer within their noise
 constexpr double kGap = 0.1;         // of the largest variance: closer ones leave an axis open
 constexpr double kElsewhere = 0.02;  // of the size, between two places
 constexpr double kAsGood = 1.02, kRival = 1.1;
+// A is called a mirror image where that is four times closer, and A is off by more than what a scan
+// is: the capped rms of both, the latter as a share of the size. A part that is its own mirror
+// image, or nearly so, lies about as close either way.
+constexpr double kMirrored = 0.25, kOff = 0.003;
 constexpr size_t kPlaces = 3;
 
 using Candidates = std::vector<Candidate>;
@@ -57,6 +61,18 @@ FitFrame frame_of(const Shape& a, const Shape& b, const Mesh& mesh_b) {
 }
 
 Candidate turned(const glm::dquat& turn) { return {.pose = {.turn = turn}}; }
+
+/// Reverses one principal axis of A: any mirror image of A is this one, turned and shifted.
+std::vector<DVec3> mirrored(const std::vector<DVec3>& samples, const Shape& a) {
+  const glm::dvec3 centre = a.axes.centroid, axis = a.axes.axes[0];
+  std::vector<DVec3> out;
+  out.reserve(samples.size());
+  for (const DVec3& sample : samples) {
+    const glm::dvec3 p(sample);
+    out.push_back(p - 2 * glm::dot(p - centre, axis) * axis);
+  }
+  return out;
+}
 
 /// Lays A's axes on B's, with two of them reversed or none.
 Candidates by_axes(const Shape& a, const Shape& b) {
@@ -129,6 +145,7 @@ class PlaceSearch {
   bool is_elsewhere(const Pose& x, const Pose& y) const;
   Candidates kept() const;
   Candidate chosen(Candidates candidates);
+  std::optional<double> closer_mirrored(const Candidate& best);
   MatrixRows matrix_of(const Pose& pose) const;
 
   const AlignOptions& options_;
@@ -221,6 +238,22 @@ Candidate PlaceSearch::chosen(Candidates candidates) {
   return best;
 }
 
+/// Lays A's mirror image on B, whose axes are A's, and returns how close it is where that is far
+/// closer than A.
+std::optional<double> PlaceSearch::closer_mirrored(const Candidate& best) {
+  if (!(best.capped > kOff * frame_.size)) return {};
+  Candidates images = by_axes(shape_a_, shape_b_);
+  if (images.empty()) return {};
+  const std::vector<DVec3> few = mirrored(few_, shape_a_), some = mirrored(some_, shape_a_);
+  fitter_.refine(images, few, {});
+  std::stable_sort(images.begin(), images.end(), ranks_before);
+  Candidates closest{images.front()};
+  fitter_.refine(closest, some, {.steps = 20});
+  fitter_.measure(closest[0], some, Counting::kNearest);
+  if (!(closest[0].capped <= kMirrored * best.capped)) return {};
+  return closest[0].capped;
+}
+
 // The shift is rounded once, so that a mesh far from the origin is off by half a unit of its
 // coordinates' last place, and not by its turn.
 MatrixRows PlaceSearch::matrix_of(const Pose& pose) const {
@@ -243,6 +276,7 @@ Alignment PlaceSearch::find() {
   fitter_.refine(all_, few_, {});
   search_on();
   Candidates best{chosen(kept())};
+  const std::optional<double> mirrored = closer_mirrored(best[0]);
   const std::vector<DVec3> many = area_samples(a_, std::max<size_t>(options_.samples, kSome));
   fitter_.refine(best, many, {.counting = Counting::kNoise, .steps = 20, .least_move = 1e-3});
   fitter_.measure(best[0], many, Counting::kNoise);
@@ -252,7 +286,8 @@ Alignment PlaceSearch::find() {
                   .share = best[0].share,
                   .samples = many.size(),
                   .is_poor = is_poor,
-                  .rival = rival_}};
+                  .rival = rival_,
+                  .mirrored = mirrored}};
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ class Search {
         options_(options),
         start_(Clock::now()),
         b_(solver.prepare(b)) {
-    const double diagonal_a = diagonal(bounding_box(a));
+    const double diagonal_a = diagonal_of(a).least();
     if (!options_.tolerance_is_absolute && diagonal_a > 0) {  // a fraction of A, not of its parts
       options_.tolerance = multiply_down(options_.tolerance, diagonal_a);
       options_.tolerance_is_absolute = true;

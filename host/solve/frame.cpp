@@ -188,6 +188,8 @@ double diagonal(const Box& box) {
   return std::isfinite(length) ? length : std::numeric_limits<double>::max();
 }
 
+Diagonal diagonal_of(const Mesh& mesh) { return {diagonal(bounding_box(mesh)), mesh.delta}; }
+
 double Frame::to_frame(double length) const { return scaled(length, exponent); }
 
 double Frame::extent(const Box& box) const { return to_frame(extent_of(box, centre)); }

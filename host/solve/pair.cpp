@@ -148,7 +148,8 @@ void narrow(Report& r, const Report& other) {
 double tolerance_of(const Pair& pair) {
   return pair.options.tolerance_is_absolute
              ? pair.options.tolerance
-             : multiply_down(pair.options.tolerance, diagonal(pair.box_a));
+             : multiply_down(pair.options.tolerance,
+                             Diagonal(diagonal(pair.box_a), pair.a.delta).least());
 }
 
 std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const Solve& solve) {

@@ -73,9 +73,9 @@ size_t block_of_turns(size_t faces, size_t count) {
 }
 
 // Sets what depends on all of A, and is unknown to a part.
-SolveOptions options_of_part(const SolveOptions& options, double diagonal_a) {
+SolveOptions options_of_part(const SolveOptions& options, const Diagonal& of_a) {
   SolveOptions out = options;
-  const double tolerance = multiply_down(options.tolerance, diagonal_a);
+  const double tolerance = multiply_down(options.tolerance, of_a.least());
   if (options.tolerance_is_absolute || !(tolerance > 0)) return out;  // nor is it of a part
   out.subroots = options.subroots || options.tolerance < kFineTolerance;
   out.tolerance = tolerance;
@@ -143,9 +143,9 @@ Report distance_of_part(const Distance& distance, const Mesh& a, const FaceRange
                         const Mesh& b, const SolveOptions& options) {
   const FloatEnvironment ours;
   check_mesh(a);
-  const double diagonal_a = diagonal(bounding_box(a));
-  Report r = distance(part_of(a, ranges), b, options_of_part(options, diagonal_a));
-  r.diagonal_a = diagonal_a;
+  const Diagonal of_a = diagonal_of(a);
+  Report r = distance(part_of(a, ranges), b, options_of_part(options, of_a));
+  r.diagonal_a = of_a.held();
   r.mesh_a = a.counts;
   if (r.has_witness) r.witness_a.set_face(a, face_of_whole(ranges, r.witness_a.face));
   return r;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "tests/files/gltf_document.h"
+#include "tests/files/las_file.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/program.h"
 
@@ -52,7 +53,7 @@ TEST_CASE("limits over B and under it") {
         std::string::npos);
   const Outcome fail = gate("+0.3abs,-0.2abs");
   CHECK(fail.exit_code == 1);
-  CHECK(starts_with(fail.out, "FAIL  0.2499"));
+  CHECK(starts_with(fail.out, "FAIL  0.25 under B at ("));
   CHECK(fail.out.find(" under B at (") < fail.out.find(") on face "));
   CHECK(fail.out.find(" of A, limit 0.2. Check the inputs: ") < fail.out.find('\n'));
   CHECK(gate("-0.3abs,+0.1abs", {"--signed"}).exit_code != 2);
@@ -65,6 +66,57 @@ TEST_CASE("limits over B and under it") {
         std::string::npos);
   CHECK(gate("+0.1abs").exit_code == 2);
   CHECK(gate("+0.1abs,+0.3abs").exit_code == 2);
+}
+
+/// Points far from the origin, whose conversion from inches rounds each by up to 1.5e-6 mm.
+Outcome gate_far_points(const std::string& a, const std::string& b, const std::string& max,
+                        Words more = {}) {
+  Words words = {"gate",
+                 write_file("far_inch.xyz", a),
+                 write_file("far_mm.xyz", b),
+                 "--points",
+                 "both",
+                 "--unit-a",
+                 "in",
+                 "--unit-b",
+                 "mm",
+                 "--max",
+                 max};
+  words.insert(words.end(), more.begin(), more.end());
+  return run(words);
+}
+
+// Exact: A is at x = 25400000101.6 and 25400000152.4, its diagonal is 50.8, and h is 50.800001; as
+// it is held the diagonal is 50.800003.
+TEST_CASE("a limit in % of an A that was rounded decides nothing that A's rounding leaves open") {
+  const std::string a = "1000000004 0 0\n1000000006 0 0\n";
+  const std::string b = "25400000101.6 0 50.800001\n25400000152.4 0 50.800001\n";
+  CHECK(gate_far_points(a, b, "100%").exit_code == 3);
+  CHECK(gate_far_points(a, b, "100%", {"--area", "90%"}).exit_code == 3);
+  CHECK(gate_far_points(a, b, "100.0001%").exit_code == 0);
+  CHECK(gate_far_points(a, b, "99.9999%").exit_code == 1);
+  const std::string longer = "1000000006 0 0\n1000000009 0 0\n";  // 76.2 across, and 1e-6 nearer
+  const std::string above = "25400000152.4 0 76.199999\n25400000228.6 0 76.199999\n";
+  CHECK(gate_far_points(longer, above, "100%").exit_code == 3);
+}
+
+// Exact: the diagonal is 2804 times the scale, the limit twice that, and h is less by 2.3e-13 of
+// it.
+TEST_CASE("a limit in % of a LAS file's offsets decides nothing that they leave open") {
+  Las las;
+  las.put(131, std::array{0.001, 0.001, 0.001});
+  las.put(155, std::array{4e6, 0.0, 0.0});
+  las.put_points({{98, 0, 0}, {2902, 0, 0}});
+  const std::string a = write_file("far.las", las.bytes());
+  const std::string b = write_file("far.xyz",
+                                   "4000000.098 0 5.607999999769032\n"
+                                   "4000002.902 0 5.607999999769032\n");
+  const auto exit_code = [&](const std::string& max) {
+    return run({"gate", a, b, "--points", "both", "--max", max}).exit_code;
+  };
+  CHECK(exit_code("200%") == 3);
+  CHECK(exit_code("201%") == 0);
+  CHECK(exit_code("199%") == 1);
 }
 
 /// A cube about (at, 0, 0), whose faces look outward or inward.
@@ -264,7 +316,7 @@ TEST_CASE("no printed end of an interval is on the other side of the limit") {
   const Outcome outcome = gate("0.2499999abs");
   CHECK(outcome.exit_code == 1);
   CHECK(outcome.out.find("[0.2499,") == std::string::npos);
-  CHECK(starts_with(outcome.out, "FAIL  0.2499999"));
+  CHECK(starts_with(outcome.out, "FAIL  0.25 from A to B at ("));
 }
 
 TEST_CASE("a FAIL tells no upper end, and --worst goes on to the farthest point") {

@@ -272,7 +272,7 @@ TEST_CASE("without a map, places are of faces, and what is not proven is none") 
 TEST_CASE("a place is told with its sign, and on its side of the limit") {
   Drawn drawn([](const glm::dvec3&) { return 0.3; });
   drawn.picture.unit = "mm";
-  MapPlace place{.distance = 0.1000021, .side = SurfaceSide::kUnder};
+  MapPlace place{.distance = 0.1000021, .side = SurfaceSide::kUnder, .known = {0.09, 0.11}};
   CHECK(place_text(drawn.picture, place) == "0.1 mm");
   drawn.picture.limit = Limit{0.1, 0.1};
   CHECK(place_text(drawn.picture, place) == "0.100002 mm");

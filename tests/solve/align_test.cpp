@@ -213,6 +213,70 @@ TEST_CASE("a bad fit is told") {
   CHECK(found(rod, icosphere(1, 1)).fit.is_poor);
 }
 
+namespace {
+
+Mesh mirror_image(const Mesh& mesh) {
+  std::vector<DVec3> vertices = mesh.vertices;
+  std::vector<UVec3> faces = mesh.faces;
+  for (DVec3& v : vertices) v.x = -v.x;
+  for (UVec3& f : faces) std::swap(f.y, f.z);
+  return make_mesh("mirrored", std::move(vertices), std::move(faces));
+}
+
+/// A lump that is no mirror image of itself: lump() is, in y.
+Mesh twisted_lump(uint32_t subdivisions) {
+  Mesh mesh = lump(subdivisions);
+  for (DVec3& v : mesh.vertices) v.y += 0.3 * v.x * v.z;
+  return mesh;
+}
+
+/// A block with a post on one corner and a bar on an edge: it is no mirror image of itself.
+Mesh part() {
+  Mesh block = cube(0.5);
+  for (DVec3& v : block.vertices) v = glm::dvec3(v) * glm::dvec3(4, 2.5, 1);
+  const Mesh post = translated(cube(0.25), {1.6, 0.9, 0.7});
+  const Mesh bar = translated(cube(0.2), {-1.7, 0.2, -0.6});
+  return joined(block, joined(post, bar));
+}
+
+}  // namespace
+
+TEST_CASE("a mirror image is told, scanned or not") {
+  Random random(9);
+  for (const Mesh& mesh : {twisted_lump(4), part()}) {
+    for (size_t i = 0; i < kPoses; ++i) {
+      const Mesh posed = in_any_pose(mirror_image(mesh), random, 5);
+      const Alignment alignment = found(posed, mesh);
+      REQUIRE(alignment.fit.mirrored);
+      CHECK(*alignment.fit.mirrored < 1e-3);
+    }
+  }
+  const Mesh scan = in_any_pose(mirror_image(noisy(twisted_lump(5), 0.01, 3)), random, 5);
+  CHECK(found(scan, twisted_lump(4)).fit.mirrored);
+}
+
+TEST_CASE("what is no mirror image, or its own, is not told") {
+  Random random(10);
+  Mesh rod = cube(0.5);
+  for (DVec3& v : rod.vertices) v = glm::dvec3(v) * glm::dvec3(0.2, 0.2, 8);
+  const std::vector<std::pair<Mesh, Mesh>> pairs = {
+      {twisted_lump(4), twisted_lump(4)},
+      {mirror_image(lump(4)), lump(4)},
+      {part(), part()},
+      {noisy(twisted_lump(5), 0.02, 1), twisted_lump(4)},
+      {half_of(twisted_lump(4), {1, 0.3, 0.2}), twisted_lump(4)},
+      {mirror_image(cube(0.5)), cube(0.5)},
+      {mirror_image(icosphere(1, 3)), icosphere(1, 3)},
+      {rod, icosphere(1, 1)},
+      {cube(0.5), part()},
+      {mirror_image(joined(cube(0.5), translated(cube(0.1), {0.5, 0, 0}))),
+       joined(cube(0.5), translated(cube(0.1), {0.5, 0, 0}))}};
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    CAPTURE(i);
+    CHECK_FALSE(found(in_any_pose(pairs[i].first, random, 3), pairs[i].second).fit.mirrored);
+  }
+}
+
 TEST_CASE("the same meshes give the same bits, prepared or not") {
   const Mesh mesh = lump(3);
   const Mesh posed = translated(rotated(mesh, {1, 2, 3}, 2), {4, 5, 6});

@@ -147,7 +147,7 @@ TEST_CASE("a unit that is meant is proposed by its name") {
 TEST_CASE("a length is enclosed in the files' unit") {
   const double diagonal = std::sqrt(3.0);
   const auto in = [&](const char* text, const char* unit) {
-    return in_files(parsed(text), "--max", unit, diagonal);
+    return in_files(parsed(text), "--max", unit, Diagonal(diagonal, 0));
   };
   check_near(in("1e-3", ""), 1e-3 * diagonal);
   check_near(in("0.1%", "mm"), 1e-3 * diagonal);
@@ -177,7 +177,7 @@ TEST_CASE("a limit is written as it was typed") {
     CAPTURE(text);
     for (const char* unit : {"mm", "abs"}) {
       const Length length = parsed((text + unit).c_str());
-      CHECK(length_in_words(limit_in_files(length, "--max", "mm", 1)) == text);
+      CHECK(length_in_words(limit_in_files(length, "--max", "mm", Diagonal(1, 0))) == text);
     }
   }
   const double third = 1.0 / 3;
@@ -186,7 +186,7 @@ TEST_CASE("a limit is written as it was typed") {
 
 TEST_CASE("a share of a diagonal that no double holds to all its bits decides nothing") {
   const auto limit = [](const char* text, double diagonal) {
-    return limit_in_files(parsed(text), "--max", "mm", diagonal);
+    return limit_in_files(parsed(text), "--max", "mm", Diagonal(diagonal, 0));
   };
   for (const double none : {0.0, 5e-324, 1e-310, std::numeric_limits<double>::max()}) {
     CAPTURE(none);

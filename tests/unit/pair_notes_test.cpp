@@ -121,6 +121,8 @@ TEST_CASE("turn: principal axes that are turned, of one shape") {
         "A is turned by about 1 degree against B, going by their principal axes: does A lie as B "
         "does?");
   CHECK(notes_on_pair(shape_of(brick({100, 60, 10}, 0.2)), b, "mm").empty());
+  // After a fit, axes that are turned tell of another shape.
+  CHECK(codes(notes_on_pair(shape_of(brick({100, 60, 10}, 1)), b, "mm", "--unit", true)).empty());
   // Half turns are not seen, and a square one is the same after a quarter of a turn.
   CHECK(notes_on_pair(shape_of(brick({100, 60, 10}, 180)), b, "mm").empty());
   const MeshShape square = shape_of(brick({100, 100, 10}));

@@ -25,8 +25,10 @@ struct Alignment {
 /// Finds a place for A at which samples of its area are close to B: from where A lies, from its
 /// principal axes laid on B's in their four turns, and from many turns where those do not decide.
 /// Iterated closest points: the nearest 80 % of the samples, and at last all within three times
-/// their noise, go down the square of their distance from B. The same meshes give the same bits on
-/// the same device. Throws what Solver::closest throws, and Interrupted where `goes_on` says no.
+/// their noise, go down the square of their distance from B. Where A is off, its mirror image is
+/// tried, too, and told where it lies far closer; A is never mirrored. The same meshes give the
+/// same bits on the same device. Throws what Solver::closest throws, and Interrupted where
+/// `goes_on` says no.
 Alignment align(Solver& solver, const Mesh& a, const PreparedMesh& b,
                 const AlignOptions& options = {});
 Alignment align(Solver& solver, const Mesh& a, const Mesh& b, const AlignOptions& options = {});

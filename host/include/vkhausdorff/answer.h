@@ -113,6 +113,8 @@ inline bool are_read(const Answer& answer) {
 
 /// The whole answer's interval.
 CertifiedInterval interval_of(const Answer& answer);
+/// A's diagonal, once the meshes are read.
+Diagonal diagonal_of_a(const Answer& answer);
 /// The verdict on one direction, and on all, of an answer with `max`.
 Verdict verdict_of(const Answer& answer, bool back);
 Verdict verdict_of(const Answer& answer);

@@ -5,6 +5,7 @@
 #include <array>
 #include <glm/vec3.hpp>
 
+#include "vkhausdorff/length.h"
 #include "vkhausdorff/mesh.h"
 
 namespace vkh {
@@ -16,6 +17,8 @@ Box bounding_box(const Mesh& mesh);
 Box join(const Box& x, const Box& y);
 /// The length of the box's diagonal, rounded to nearest; the largest double if it is longer.
 double diagonal(const Box& box);
+/// The diagonal of which lengths in % and diag are shares.
+Diagonal diagonal_of(const Mesh& mesh);
 /// The farthest that two points of meshes in that box can be apart if the deltas of the meshes, by
 /// which vertices are off their exact places, have that sum.
 double farthest_in(const Box& joint, double delta);

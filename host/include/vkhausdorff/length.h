@@ -52,17 +52,34 @@ UnitRatio unit_ratio(const std::string& from, const std::string& to);
 /// Converts a length for comparison, rounded to nearest; one of an unknown unit stays as it is.
 double in_millimetres(double length, const std::string& unit);
 
-/// Encloses the length in the files' unit, `file_unit`, which is empty if it is unknown: in exact
-/// arithmetic it is from `within` to `beyond`, which are 32 ulps apart, or both the number itself
-/// where that was given as a double in the files' unit. A share of a diagonal refers to the
-/// diagonal of the coordinates as they are read, whatever their delta. Throws UsageError, naming
-/// `option`, if a length in millimetres meets files of an unknown unit.
-Limit in_files(const Length& length, const char* option, const std::string& file_unit,
-               double diagonal_a);
+/// A's diagonal, of which a length in % or diag is a share. Whoever makes one says how far A's
+/// coordinates are off, since the exact diagonal is off with them.
+class Diagonal {
+ public:
+  /// `held`: of the coordinates as the mesh holds them, rounded to nearest. `delta`: Mesh::delta.
+  Diagonal(double held, double delta) : held_(held), delta_(delta) {}
 
-/// The same for a length that decides: also refuses a share of a diagonal that is 0 or no normal
-/// double, since its error is unknown.
+  double held() const { return held_; }
+  /// The exact diagonal lies between them, but for the rounding of held(). With a delta of 0 both
+  /// are held().
+  double least() const;
+  double most() const;
+
+ private:
+  double held_, delta_;
+};
+
+/// Encloses the length in the files' unit, `file_unit`, which is empty if it is unknown: in exact
+/// arithmetic it is from `within` to `beyond`. These are 32 ulps apart, or both the number itself
+/// where that was given as a double in the files' unit. A share of a diagonal is one of A's exact
+/// diagonal: its ends are farther apart where A has a delta. Throws UsageError, naming `option`, if
+/// a length in millimetres meets files of an unknown unit.
+Limit in_files(const Length& length, const char* option, const std::string& file_unit,
+               const Diagonal& of_a);
+
+/// The same for a length that decides: also refuses a share of a diagonal of which too little is
+/// known: it is 0, or no normal double, or may be less than half of what it seems.
 Limit limit_in_files(const Length& length, const char* option, const std::string& file_unit,
-                     double diagonal_a);
+                     const Diagonal& of_a);
 
 }  // namespace vkh

@@ -1,6 +1,8 @@
 // A length to stay within.
 #pragma once
 
+#include <algorithm>
+
 #include "vkhausdorff/needs_cpp20.h"
 
 namespace vkh {
@@ -15,9 +17,13 @@ struct Limit {
 struct SidedLimits {
   Limit over, under;
   /// The limit of points whose side is not known.
-  const Limit& smaller() const { return over.within <= under.within ? over : under; }
+  Limit smaller() const {
+    return {std::min(over.within, under.within), std::min(over.beyond, under.beyond)};
+  }
   /// The limit that no point may exceed.
-  const Limit& larger() const { return over.within <= under.within ? under : over; }
+  Limit larger() const {
+    return {std::max(over.within, under.within), std::max(over.beyond, under.beyond)};
+  }
 };
 
 }  // namespace vkh

@@ -31,6 +31,9 @@ struct FoundFit {
   /// Set if another place is about as good, such as for a symmetric part: the root mean square of
   /// the nearest 80 % there.
   std::optional<double> rival = {};
+  /// Set if A's mirror image would lie far closer to B than A does: the root mean square of all
+  /// samples there, none farther than a twentieth of B's size.
+  std::optional<double> mirrored = {};
 
   bool operator==(const FoundFit&) const = default;
 };

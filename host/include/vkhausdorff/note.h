@@ -41,6 +41,7 @@ enum class NoteCode {
   kFit,          ///< A lies where a fit put it, which is not proven the best
   kPoorFit,      ///< that fit is far from B, or of a part of A
   kOtherFit,     ///< another place of A is about as good
+  kMirrored,     ///< A's mirror image would lie far closer to B than that fit
   kTolerance,    ///< a tolerance of 0, which hardly any interval meets
   kMemory,       ///< memory that the device or --memory lacks
   kDevices,      ///< devices that were lost

@@ -107,7 +107,7 @@ struct Report {
   Status status = Status::kClosed;
   double lower = 0, upper = 0;  ///< the certified interval, in the files' units, rounded outward
   double diagonal_a = 0;        ///< the diagonal of A's bounding box, rounded to nearest
-  double tolerance = 0;    ///< in the files' units; for a fraction: times diagonal_a, rounded down
+  double tolerance = 0;  ///< in the files' units; for a fraction: of what A's diagonal is at least
   double known_lower = 0;  ///< SolveOptions::known_lower
   Limit limit;             ///< SolveOptions::limit
   SurfacePoint witness_a, witness_b;

@@ -127,7 +127,9 @@ class Alignment:
     samples: int
     poor: bool
     rival: float | None
-    def __init__(self, matrix: npt.ArrayLike, rms: float, share: float, samples: int, poor: bool, rival: float | None) -> None: ...
+    mirrored: float | None
+    def __init__(self, matrix: npt.ArrayLike, rms: float, share: float, samples: int, poor: bool, rival: float | None,
+                 mirrored: float | None = None) -> None: ...
 
 class Closest:
     """The points of a mesh that are closest to given points, by their rows: each distance lies in [lower, upper]."""

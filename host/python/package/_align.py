@@ -15,7 +15,8 @@ class Alignment(Record):
     matrix: (4, 4), float64, read-only: a rotation and a shift, which transform= takes. rms: the root mean square distance
     from B of A's samples that count there, in the coordinates' unit; share: of the samples, those within three deviations,
     which count; samples: how many there are. poor: the fit is far from B for its size, or few samples count. rival: where
-    another place is about as good, such as for a symmetric part, the rms of the nearest 80 % there; otherwise None.
+    another place is about as good, such as for a symmetric part, the rms of the nearest 80 % there; otherwise None. mirrored:
+    where A's mirror image would lie far closer, the rms of all its samples there; otherwise None.
     """
 
     matrix: Any
@@ -24,16 +25,17 @@ class Alignment(Record):
     samples: int
     poor: bool
     rival: Any
+    mirrored: Any
 
-    def __init__(self, matrix, rms, share, samples, poor, rival):
+    def __init__(self, matrix, rms, share, samples, poor, rival, mirrored=None):
         own = np.array(matrix, dtype=np.float64)
         own.setflags(write=False)
         for name, value in (("matrix", own), ("rms", rms), ("share", share), ("samples", samples), ("poor", poor),
-                            ("rival", rival)):
+                            ("rival", rival), ("mirrored", mirrored)):
             object.__setattr__(self, name, value)
 
     def __reduce__(self):  # an unpickled array could be written to
-        return Alignment, (self.matrix, self.rms, self.share, self.samples, self.poor, self.rival)
+        return Alignment, (self.matrix, self.rms, self.share, self.samples, self.poor, self.rival, self.mirrored)
 
     def _row(self):
         row = {"rms": self.rms, "share": self.share, "samples": self.samples, "poor": self.poor, "rival": self.rival}
