@@ -88,19 +88,23 @@ std::optional<MapOptions> map_options(const Finishing& at) {
   return map;
 }
 
+// A share that is joined of two is wider by a rounding.
+constexpr double kOfShareTolerance = 0.99 * MetricsOptions::kShareTolerance;
+
 // The slope of f1 in a share is 2 at most, and both its shares are enclosed. Figures that are not
 // asked for have no goal.
 void ask_for_metrics(const MetricsOptions& metrics, SurveyOptions& options) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  const bool has_moments = metrics.asks_for({"masd", "assd", "rms", "chamfer_l1", "chamfer_l2"});
   const bool has_shares = metrics.asks_for(
       {"nsd", "precision", "recall", "f1", "precision_normals", "recall_normals", "f1_normals"});
-  options.mean_tolerance = has_moments ? MetricsOptions::kTolerance : kNone;
   const bool has_f1 = metrics.asks_for({"f1"});
-  const double of_share = MetricsOptions::kShareTolerance / (has_f1 ? 2 : 1);
+  const double of_share = has_f1 ? MetricsOptions::kShareTolerance / 2 : kOfShareTolerance;
   options.area_tolerance = has_shares ? of_share : kNone;
   options.agreeing_tolerance = has_shares ? MetricsOptions::kShareTolerance / 2 : kNone;
   options.percentiles = {metrics.percentile / 100};
+  options.mean_tolerance = MetricsOptions::kTolerance;
+  options.narrows_mean = metrics.asks_for({"masd", "assd", "chamfer_l1"});
+  options.narrows_rms = metrics.asks_for({"rms", "chamfer_l2"});
   options.narrows_percentiles = metrics.asks_for({"hd_p", "hd_p_pooled"});
   options.normals_within = metrics.normals;
   options.cosine_tolerance =
@@ -131,7 +135,7 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
   if (question.metrics) ask_for_metrics(*question.metrics, options);
   if (!has_figures) options.percentiles.clear();
   if (!has_figures) {  // a share of area is all that is asked
-    options.mean_tolerance = std::numeric_limits<double>::infinity();
+    options.narrows_mean = options.narrows_rms = false;
     options.signed_tolerance = options.signed_floor = 1;
   }
   options.map = map_options(at);
@@ -226,14 +230,13 @@ void take_coverage(const Finishing& at, double beyond, Statistics& statistics) {
 }
 
 // The second survey knows the first one's shares, and so how narrow f1 is: its own shares need not
-// be narrower than that takes. A share that is joined of two is wider by a rounding.
+// be narrower than that takes.
 void take_shares_of_a(const Finishing& at, const Side& side, SurveyOptions& options) {
-  constexpr double kOfTolerance = 0.99;
   const bool has_f1 = at.question.metrics && at.question.metrics->asks_for({"f1"});
   if (!side.back || !has_f1 || !at.answer.survey_a || !at.answer.survey_a->statistics) return;
   for (const AreaWithin& band : at.answer.survey_a->statistics->bands)
     options.other_shares.insert(options.other_shares.end(), 2, band.share);
-  options.area_tolerance = kOfTolerance * MetricsOptions::kShareTolerance;
+  options.area_tolerance = kOfShareTolerance;
 }
 
 /// Notes that the other mesh is inside out where sides were found: over is then inside it.

@@ -89,7 +89,9 @@ std::vector<glm::dvec3> integers_from(const PointsName& name, const py::array& g
 }
 
 std::vector<glm::dvec3> named_points_from(const PointsName& name, const py::object& object) {
-  const std::string expected = "an array of shape (n, 3) of float32, float64 or integers";
+  const std::string expected =
+      "an array of shape (n, 3) of float32, float64 or integers (points of a plane: add a column "
+      "of zeros)";
   const py::array given = array_from(name.what, object, expected);
   const char kind = given.dtype().kind();
   if (kind == 'i') return integers_from<int64_t>(name, given);

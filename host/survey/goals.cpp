@@ -207,12 +207,14 @@ Scores score_percentiles(const CellStore& store, const Areas& areas, const Asked
   return score_undecided(store, areas, open);
 }
 
-// Scores a cell by its part of the width of the mean, and then of its square's.
+// Scores a cell by its part of the width of the mean, and then of its square's: of those that have
+// a goal.
 Scores score_moments(const CellStore& store, const Areas& areas, const Asked& asked) {
   const Moments moments = moments_of(store, areas);
-  const bool by_mean = width(moments.mean) > enough(moments.mean, asked);
+  const auto is_open = [&](const Enclosure& e) { return width(e) > enough(e, asked); };
+  const bool by_mean = asked.options.narrows_mean && is_open(moments.mean);
+  if (!by_mean && !(asked.options.narrows_rms && is_open(moments.rms))) return {{}, true};
   const Enclosure& open = by_mean ? moments.mean : moments.rms;
-  if (width(open) <= enough(open, asked)) return {{}, true};
   Scores scores = scored(store, [&](size_t i) -> std::optional<double> {
     const gpu::CellBounds& b = store.bounds(i);
     if (spread(b) <= kFloor) return 0;
@@ -243,7 +245,8 @@ Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths) {
 }
 
 std::vector<Threshold> only_shares_of(const SurveyOptions& options, const SurveyedPair& pair) {
-  const bool has_lengths = std::isfinite(options.mean_tolerance) || options.narrows_percentiles;
+  const bool has_lengths =
+      options.narrows_mean || options.narrows_rms || options.narrows_percentiles;
   if (has_lengths || options.map || options.normals_within || options.max_distance) return {};
   return bands_of({options, pair.displacement, pair.frame, least_width(pair)});
 }
@@ -263,7 +266,7 @@ std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pai
     goals.emplace_back(
         [&areas, asked](const CellStore& store) { return score_shares(store, areas, asked); });
   }
-  if (std::isfinite(options.mean_tolerance)) {
+  if (options.narrows_mean || options.narrows_rms) {
     goals.emplace_back(
         [&areas, asked](const CellStore& store) { return score_moments(store, areas, asked); });
   }

@@ -36,6 +36,12 @@ struct Open {
   Hints hints;
 };
 
+// Whether all corners are one: halves of such a part would be the part itself.
+bool is_point(const Part& part) {
+  const auto is_first = [&](const Point2& p) { return p.hi == part[0].hi && p.lo == part[0].lo; };
+  return is_first(part[1]) && is_first(part[2]);
+}
+
 // The corner opposite the part's longest edge. It only steers.
 uint8_t opposite_longest(const Part& part) {
   const auto length = [&](size_t i, size_t j) {
@@ -165,8 +171,8 @@ class Prover {
     return ended_;
   }
 
-  // Adds leaves for the parts that a hint proves; the others stay, in their order. Small parts may
-  // take a little more: halving does not lessen the error of the arithmetic.
+  // Adds leaves for the parts that a hint proves; the others stay, in their order. Small parts and
+  // points may take a little more: halving does not lessen the error of the arithmetic.
   double close(std::vector<Open>& some, ProofTree& tree) {
     std::vector<std::optional<Leaf>> found(some.size());
     std::atomic<bool> took_more = false;
@@ -175,7 +181,7 @@ class Prover {
       const size_t end = std::min(some.size(), (turn + 1) * kPartsATurn);
       for (size_t i = turn * kPartsATurn; i < end; ++i) {
         found[i] = proof_of(some[i].part, b_, some[i].hints, upper_);
-        if (found[i] || some[i].depth < kSmall) continue;
+        if (found[i] || (some[i].depth < kSmall && !is_point(some[i].part))) continue;
         found[i] = proof_of(some[i].part, b_, some[i].hints, upper_ + more_);
         if (found[i]) took_more = true;
       }
@@ -194,10 +200,10 @@ class Prover {
     if (leaf.alone != Leaf::kUncut) ++result_.cut_leaves;
   }
 
-  // Chooses the parts for which all of B is searched: those too small to ask the device about, and
-  // small ones whose known faces are within the bound but for a float's rounding, since the device
-  // may have missed a nearer face. Of the others only the farthest: if all of B is too far from it,
-  // the bound must be raised, and halving the rest would be in vain.
+  // Chooses the parts for which all of B is searched: those too small to ask the device about,
+  // points, and small ones whose known faces are within the bound but for a float's rounding, since
+  // the device may have missed a nearer face. Of the others only the farthest: if all of B is too
+  // far from it, the bound must be raised, and halving the rest would be in vain.
   std::vector<Open*> to_search(std::vector<Open>& open) {
     std::vector<Open*> sought;
     Open* farthest = nullptr;
@@ -205,8 +211,9 @@ class Prover {
     for (Open& one : open) {
       const bool is_new = one.searched == 0 || one.depth - one.searched >= kSearchAgain;
       if (!is_new || seen_ > (one.has_cell ? kMostSeen / 2 : kMostSeen)) continue;
-      if (one.has_cell && (one.depth < kSmall || one.depth % kSearchAgain != 0)) continue;
-      const double least = one.has_cell ? nearest_of(one.part, b_, one.hints).upper : 0;
+      const bool may_halve = one.has_cell && !is_point(one.part);
+      if (may_halve && (one.depth < kSmall || one.depth % kSearchAgain != 0)) continue;
+      const double least = may_halve ? nearest_of(one.part, b_, one.hints).upper : 0;
       if (least > most) {
         most = least;
         farthest = &one;
@@ -275,11 +282,11 @@ class Prover {
     one.cell.start = found.triangle;
   }
 
-  // Halves the parts; those that cannot be halved any more are proven to what they are.
+  // Halves the parts. Points, and those that are halved no more, are proven to what they are.
   double halve(const std::vector<Open>& some, ProofTree& tree, std::vector<Open>& halves) {
     std::vector<Open> last;
     for (const Open& one : some) {
-      if (one.depth >= kMostHalvings) {
+      if (one.depth >= kMostHalvings || is_point(one.part)) {
         last.push_back(one);
         continue;
       }

@@ -221,10 +221,20 @@ struct Step {
 // The longest step: longer ones would cost digits, and are never due.
 VKH_CONST float kLongestStep = 0.00390625f;  // 2^-8
 
-// The step that takes the point of `c` to the foot of `offset`, which is p less that point; u and v
-// are edges_from_base(). It stays in the triangle, whatever rounding did to it: v
-// and w remain >= 0 exactly, and v + w <= 1 holds for their floats' exact sum, since it does not
-// grow or three roundings of up to kUlp are under 8 kUlp. Otherwise there is no step.
+// <= 1 - (v + w), the weight of the base. Where that is under a half, 1 less the sum's high part is
+// exact, and what follows rounds it once. The low part is 0 on an edge; inside, where 4 kUlp and
+// more are left, it is off by kUlp2 / 8, a quarter of a rounding.
+VKH_FN float base_weight_down(Closest c) {
+  Two sum = two_sum(c.v, c.w);
+  return lowered((1.0f - sum.hi) - sum.lo);
+}
+
+// The step that takes the point of `c` to the foot of `offset`, which is p less that point, or to
+// the edge that it would cross; u and v are edges_from_base(). It stays in the triangle, whatever
+// rounding did to it: v and w remain >= 0 exactly, and v + w <= 1 holds for their floats' exact
+// sum, since it does not grow, or by what the base's weight leaves of it. Next to a corner that is
+// not the base that weight is all that is left, and has all its bits: a guard of a few kUlp there
+// would hold the point as far off. If no step is short enough, there is none.
 VKH_FN Step step_to_foot(vec3 offset, vec3 u, vec3 v, Closest c) {
   float uu = dot3(u, u);
   float x = ratio(dot3(offset, u), uu);
@@ -234,8 +244,10 @@ VKH_FN Step step_to_foot(vec3 offset, vec3 u, vec3 v, Closest c) {
   Step step;
   step.w = clamp(w, -min(c.w, kLongestStep), kLongestStep);
   step.v = clamp(x - step.w * s, -min(c.v, kLongestStep), kLongestStep);
-  float sum = step.v + step.w;
-  bool stays = either(sum <= 0.0f, (c.v + c.w) + sum <= 1.0f - 8.0f * kUlp);
+  bool shrinks = step.v + step.w <= 0.0f;
+  float most = lowered(base_weight_down(c) - step.w);
+  bool stays = either(shrinks, most >= -min(c.v, kLongestStep));
+  step.v = choose(shrinks, step.v, min(step.v, most));
   step.v = choose(stays, step.v, 0.0f);
   step.w = choose(stays, step.w, 0.0f);
   return step;

@@ -147,6 +147,18 @@ bool is_noise(Bary3 corners, Root root, float upper) {
   return !has_subroots() && control.base == 0.0 && left * left <= 0.25 * kUlp * kUlp * root_size2;
 }
 
+// Whether a candidate ends that the switches would not close. Without kUseToleranceCull a part of A
+// that is as far as the best sample, as above a parallel face, never falls under it, but for
+// rounding: all of its children would be split until their bits run out, 4^20 of them, while those
+// that hold the interval wide wait for room. So what is within half of the tolerance ends. The
+// roundings of u and of the sample are less: a twentieth for lengths in plain floats (needs_sharp),
+// an eighth for positions in them (host/solve/pair.cpp), or else under the tolerance's floor. It
+// only steers.
+bool is_level(float upper, bool tolerant) {
+  float lower = adopted_lower();
+  return !tolerant && upper <= lower_to_beat(lower) + 0.5 * effective_tolerance(lower);
+}
+
 // Called by every invocation of the workgroup, the first of a candidate's among them once.
 Refined refine(uint item, bool first, uint group) {
   Refined r;
@@ -157,7 +169,7 @@ Refined refine(uint item, bool first, uint group) {
   r.upper = upper_of(r.c);
   r.slot = shared_slot_of(item, held, first, r, group);
   bool tolerant = (kSwitches & kUseToleranceCull) != 0u;
-  r.closed = r.upper <= cull_threshold(adopted_lower(), tolerant);
+  r.closed = r.upper <= cull_threshold(adopted_lower(), tolerant) || is_level(r.upper, tolerant);
   r.split = kSplitNone;
   if (r.slot != kNone) {
     r.at = unpack_corners(r.c.corners);

@@ -85,6 +85,30 @@ class Metrics(unittest.TestCase):
         self.assertEqual([direction["survey"]["bounded"] for direction in answer["directions"]], [2, 2])
         self.assertEqual([at["f1"]["lower"] for at in answer["metrics"]["within"]], [0, 1])
 
+    def test_one_figure_is_as_narrow_as_among_all(self):
+        for name, cells, height in (("low", 3, 0.1), ("high", 4, 0.25)):
+            side = cells + 1
+            rows = [f"v {i / cells} {j / cells} {height * ((7 * i + 5 * j + i * j) % 4) / 4}" for j in range(side) for i in range(side)]
+            corners = [j * side + i + 1 for j in range(cells) for i in range(cells)]
+            rows += [f"f {a} {a + 1} {a + side + 1} {a + side}" for a in corners]
+            (self.folder / f"{name}.obj").write_text("\n".join(rows) + "\n")
+        (self.folder / "hills.csv").write_text("id,a,b\nhills,low.obj,high.obj\n")
+        words = ("--bands", "0.05abs", "--percentile", "90", "--polygons", "fan")
+        whole = json.loads(self.run_program("metrics", "low.obj", "high.obj", *words, "--json").stdout)["metrics"]
+        self.assertTrue(whole["met"])
+        for figures in (*LENGTHS, *SHARES, "hd90,f1", "hd90,hausdorff", "hd90_pooled,recall"):
+            alone = json.loads(self.run_program("metrics", "low.obj", "high.obj", *words, "--figures", figures, "--json").stdout)["metrics"]
+            self.batch("hills", "--metrics", *words, "--figures", figures)
+            of_a_line = json.loads((self.folder / "hills.jsonl").read_text())["metrics"]
+            (self.folder / "hills.jsonl").unlink()
+            self.assertEqual(alone["figures"], of_a_line["figures"])
+            for name in alone["figures"]:
+                at = [(m["within"][0] if name in SHARES else m)[name] for m in (alone, of_a_line, whole)]
+                enough = 0.00101 if name in SHARES else 0.041 * at[2]["upper"]
+                for one in at[:2]:
+                    self.assertTrue(one["lower"] <= at[2]["upper"] and at[2]["lower"] <= one["upper"], name)
+                    self.assertLessEqual(one["upper"] - one["lower"], max(enough, at[2]["upper"] - at[2]["lower"]), name)
+
     def test_normals(self):
         (self.folder / "wall.obj").write_text("v 0 0 -1\nv 0 1 -1\nv 0 1 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n")
         words = ("--bands", "0.3abs", "--normals", "20deg")

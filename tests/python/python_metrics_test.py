@@ -3,8 +3,10 @@
 
 nibabel, where it is here, writes and reads the files of masks (tools/setup --full installs it).
 """
+import itertools
 import pathlib
 import pickle
+import random
 import subprocess
 import sys
 import tempfile
@@ -107,6 +109,55 @@ class Meshes(unittest.TestCase):
                 vkh.metrics(*pair)
 
 
+def hills(cells, seed):
+    """A height field over the unit square, of 2 cells^2 faces, up to 0.2 high."""
+    chance = random.Random(seed)
+    side = cells + 1
+    vertices = np.array([[i / cells, j / cells, 0.2 * chance.random()] for j in range(side) for i in range(side)])
+    corners = [j * side + i for j in range(cells) for i in range(cells)]
+    faces = [face for a in corners for face in ((a, a + 1, a + side + 1), (a, a + side + 1, a + side))]
+    return vertices, np.array(faces)
+
+
+class Subsets(unittest.TestCase):
+    """Figures that alone are asked for are as narrow as the same ones among all."""
+
+    NORMALS = ("normal_consistency", "precision_normals", "recall_normals", "f1_normals")
+
+    def check(self, names, whole, options):
+        part = vkh.metrics(*self.pair, figures=names, **options)
+        known, found = dict(whole._rows()), dict(part._rows())
+        percentile = f"{whole.percentile:g}"
+        for name in names:
+            shown = name.replace("_p", percentile, 1) if name.startswith("hd_p") else name
+            for key in (key for key in known if key == shown or key.startswith(shown + "@")):
+                one, all_of_it = found[key], known[key]
+                self.assertLessEqual(one.lower, all_of_it.upper, key)
+                self.assertGreaterEqual(one.upper, all_of_it.lower, key)
+                is_length = "@" not in key and key != "normal_consistency"
+                enough = 0.041 * all_of_it.upper if is_length else 0.0101 if key == "normal_consistency" else 0.00101
+                self.assertLessEqual(one.upper - one.lower, max(enough, all_of_it.upper - all_of_it.lower), key)
+        self.assertLessEqual(set(part.unmet), set(whole.unmet))
+        self.assertTrue(part.met or not whole.met, part.unmet)
+
+    def check_all(self, names, count, **options):
+        self.pair = hills(4, 1), hills(5, 2)
+        whole = vkh.metrics(*self.pair, **options)
+        self.assertTrue(whole.met, whole.unmet)
+        chance = random.Random(3)
+        subsets = [*itertools.combinations(names, 1), *itertools.combinations(names, 2)]
+        subsets += [tuple(chance.sample(names, chance.randint(3, len(names)))) for _ in range(count)]
+        for subset in subsets:
+            with self.subTest(subset):
+                self.check(subset, whole, options)
+
+    def test_lengths(self):
+        self.check_all(LENGTHS, 4, percentile=90)
+
+    def test_with_bands_and_normals(self):
+        self.check_all(LENGTHS + SHARES + self.NORMALS, 8, bands=[0.03, "5%"], normals=20)
+
+
 class Masks(unittest.TestCase):
     encloses = Meshes.encloses
 
@@ -178,6 +229,54 @@ class Masks(unittest.TestCase):
                                             (ValueError, (a, a), {"spacing": (1, 1, 0)}, "spacing"), (ValueError, (a, a), {"spacing": 1}, "spacing"),
                                             (ValueError, (a, a), {"affine": np.zeros((4, 4))}, "affine"),
                                             (TypeError, (a, a), {"affine": np.eye(4), "spacing": (1, 1, 1)}, "spacing")):
+            with self.subTest(said), self.assertRaisesRegex(wrong, said):
+                vkh.metrics(*words, **options)
+
+    def test_an_empty_mask_is_infinitely_far(self):
+        a = block((6, 6, 6), (1, 1, 1), (5, 5, 5))
+        none = np.zeros_like(a)
+        with self.assertRaisesRegex(ValueError, "b: no voxel is set.*empty='inf'"):
+            vkh.metrics(a, none)
+        for pair, no_a, no_b in (((a, none), False, True), ((none, a), True, False), ((none, none), True, True)):
+            m = vkh.metrics(*pair, empty="inf", bands=[0.5, "1%"], percentile=99.5, normals=20, spacing=(1, 1, 2))
+            with self.subTest((no_a, no_b)):
+                length = np.nan if no_a and no_b else np.inf
+                for name in (*LENGTHS, "hd99.5"):
+                    np.testing.assert_equal(tuple(getattr(m, name)), (length, length))
+                share = np.nan if no_a and no_b else 0.0
+                for name in SHARES + ("precision_normals", "recall_normals", "f1_normals"):
+                    lacks = (no_a and name.startswith("precision")) or (no_b and name.startswith("recall"))
+                    truth = np.nan if lacks else share
+                    np.testing.assert_equal([*map(tuple, getattr(m, name).values())], [(truth, truth)] * 2)
+                    self.assertEqual(list(getattr(m, name)), [0.5, "1%"])
+                self.assertEqual((m.met, m.unmet, m.result), (True, (), None))
+                self.assertIn("hausdorff=", repr(m))
+        for wrong, options in ((ValueError, {"bands": ["much"]}), (ValueError, {"figures": ["dice"]}), (ValueError, {"percentile": 0}),
+                               (ValueError, {"empty": "nan"}), (ValueError, {"spacing": (1, 1)})):
+            with self.subTest(options):
+                self.assertRaises(wrong, vkh.metrics, a, none, **{"empty": "inf", **options})
+        self.assertRaises(TypeError, vkh.metrics, a, none.astype(float), empty="inf")
+        self.assertEqual(vkh.metrics(a, a, empty="inf"), vkh.metrics(a, a))
+
+    def test_contours_of_two_dimensions(self):
+        """A: 4 x 6 pixels, B: the first 4 x 4. The far edge of A is 2 away, and two sides rise to it."""
+        a, b = block((8, 10), (2, 2), (6, 8)), block((8, 10), (2, 2), (6, 6))
+        m = vkh.metrics(a, b, bands=[0.5, 3.0], spacing=(0.5, 0.5), percentile=90)
+        # In pixels: of A's 20 the far edge of 4 is at 2, and 2 + 2 rise from 0 to 2. B's far edge, 4 of 16, is under a roof of
+        # height 2.
+        mean_a, mean_b = (4 * 2 + 4 * 1) / 20 / 2, (4 * 1) / 16 / 2
+        self.encloses(m.hausdorff, 1, 1e-4)
+        self.encloses(m.hd90, 1, 0.03)
+        self.encloses(m.masd, (mean_a + mean_b) / 2, 0.02)
+        self.encloses(m.assd, (mean_a * 20 + mean_b * 16) / 36, 0.02)
+        self.encloses(m.precision[0.5], 1 - (4 + 4 * 0.5) / 20, 0.001)
+        self.encloses(m.recall[0.5], 1 - 2 / 16, 0.001)
+        self.assertEqual(tuple(m.nsd[3.0]), (1, 1))
+        for wrong, words, options, said in ((ValueError, (a, b), {"bands": ["1%"]}, "two dimensions they are lengths"),
+                                            (ValueError, (a, b), {"spacing": (1, 1, 1)}, "two positive numbers"),
+                                            (TypeError, (a, b), {"affine": np.eye(4)}, "three dimensions"),
+                                            (TypeError, (a, b.astype(int)), {}, "two and booleans"),
+                                            (ValueError, (a, np.zeros_like(a)), {}, "no voxel")):
             with self.subTest(said), self.assertRaisesRegex(wrong, said):
                 vkh.metrics(*words, **options)
 

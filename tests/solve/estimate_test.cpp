@@ -139,8 +139,7 @@ TEST_CASE("shares alone have the estimates that they have beside all figures") {
   SurveyOptions options = statistics_alone({0.02, 0.05, 0.08, 0.11});
   options.effort = 0;
   const SurveyResult all = survey_of(a, b, options);
-  options.mean_tolerance = std::numeric_limits<double>::infinity();
-  options.narrows_percentiles = false;
+  options.narrows_mean = options.narrows_rms = options.narrows_percentiles = false;
   const SurveyResult alone = survey_of(a, b, options);
   REQUIRE(all.statistics);
   REQUIRE(alone.statistics);

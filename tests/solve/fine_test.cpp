@@ -158,3 +158,55 @@ TEST_CASE("meshes in nearly one plane close to 1e-10, and soon") {
     CHECK(proof.unproven == 0);
   }
 }
+
+namespace {
+
+/// The unit square in n x n cells, each cut along a diagonal; moved by `place`.
+template <class Place>
+Mesh tessellated(uint32_t n, const Place& place) {
+  std::vector<glm::dvec3> vertices;
+  std::vector<glm::uvec3> faces;
+  for (uint32_t j = 0; j <= n; ++j) {
+    for (uint32_t i = 0; i <= n; ++i)
+      vertices.push_back(place(static_cast<double>(i) / n, static_cast<double>(j) / n));
+  }
+  for (uint32_t j = 0; j < n; ++j) {
+    for (uint32_t i = 0; i < n; ++i) {
+      const uint32_t a = j * (n + 1) + i, c = a + n + 1;
+      faces.emplace_back(a, a + 1, c + 1);
+      faces.emplace_back(a, c + 1, c);
+    }
+  }
+  return make_mesh("grid", vertices, faces);
+}
+
+/// Grids of a and of b cells a side; of one plane they are 0 apart, but for rounding.
+template <class Place>
+void check_one_plane(uint32_t a, uint32_t b, const Place& place) {
+  CAPTURE(a);
+  CAPTURE(b);
+  for (const double tolerance : {1e-7, 1e-9}) {
+    CAPTURE(tolerance);
+    const Report r =
+        solver().distance(tessellated(a, place), tessellated(b, place), options_of(tolerance));
+    CHECK(r.status == Status::kClosed);
+    CHECK(r.lower <= 1e-15 * r.diagonal_a);
+  }
+}
+
+}  // namespace
+
+// A point next to a corner of its triangle was held 8 float ulps of the triangle away from it: a
+// sample there seemed to be as far, and what is as near as that sample was closed.
+TEST_CASE("two tessellations of one plane close to 1e-9") {
+  const auto in_place = [](double x, double y) { return glm::dvec3(x, y, 0); };
+  const auto turned = [](double x, double y) {
+    const double c = std::cos(0.3), s = std::sin(0.3);
+    const double u = c * x - s * y, v = s * x + c * y;
+    return glm::dvec3(u + 3, 0.6 * v - 0.2, 0.8 * v + 7);
+  };
+  for (const auto& [a, b] : {std::pair{5u, 4u}, {4u, 5u}, {3u, 7u}, {7u, 3u}, {17u, 12u}}) {
+    check_one_plane(a, b, in_place);
+    check_one_plane(a, b, turned);
+  }
+}

@@ -69,9 +69,9 @@ struct SurveyOptions {
   /// If set: a band is met as soon as it is known whether so much of A's area is within it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area, 0 to 1
-  /// false: percentiles are enclosed, and have no goal. With a mean_tolerance that is infinite only
-  /// the shares within `bands` have estimates then, and there is no curve.
-  bool narrows_percentiles = true;
+  /// false: the mean, the root mean square or the percentiles are enclosed, and have no goal. Where
+  /// none of them has one, only the shares within `bands` have estimates, and there is no curve.
+  bool narrows_mean = true, narrows_rms = true, narrows_percentiles = true;
   /// With statistics of a surface: also the agreement of normals, of an angle from 0 to 90 degrees.
   /// Normals are of the corners as the meshes hold them; Mesh::delta is no part of them.
   std::optional<double> normals_within = {};

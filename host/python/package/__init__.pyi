@@ -603,6 +603,7 @@ def metrics(
     on_progress: _OnProgress | None = None,
     figures: _Names = (),
     normals: _Number | None = None,
+    empty: Literal["error", "inf"] = "error",
 ) -> Metrics: ...
 def assert_within(a: _Measured, b: _Measured, max: _Number | str | npt.ArrayLike, **options: Any) -> None: ...
 def read(path: str | PathLike[str] | npt.NDArray[Any], *, max_input: SupportsIndex | str | None = None,

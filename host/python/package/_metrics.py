@@ -1,6 +1,7 @@
 """Metrics of two surfaces by the names that papers use: vkhausdorff.metrics()."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from math import inf, nan
 from typing import Any
 
 from vkhausdorff import _core, _masks
@@ -19,7 +20,7 @@ class Metrics:
     {distance as it was given: Interval} of shares, from 0 to 1, for each of bands. With normals=, normal_consistency is an
     Interval, and precision_normals, recall_normals and f1_normals are of area whose normals agree, too; otherwise they are
     None and empty. met: whether all that are asked for are as narrow as they are to be; unmet: the names of those that are
-    not. result: the Result of both directions that they were made of.
+    not. result: the Result of both directions that they were made of; None where a mask is empty.
     """
 
     percentile: float
@@ -100,25 +101,49 @@ def _made(result):
     return Metrics(percentile=found["percentile"], **lengths, **shares, met=not unmet, unmet=tuple(unmet), result=result)
 
 
+def _without_surface(named, no_a, no_b):
+    """The figures of masks of which one or both are empty, under the names that another pair's have."""
+    known = nan if no_a and no_b else 0.0
+    of_shares = {"precision": nan if no_a else known, "recall": nan if no_b else known}
+    of_shares |= {f"{name}_normals": share for name, share in of_shares.items()}
+
+    def exactly(value):
+        return Interval(value, value, value)
+
+    lengths = {name: exactly(nan if no_a and no_b else inf) for name in _LENGTHS}
+    shares = {
+        name: {distance: exactly(of_shares.get(name, known)) for distance in getattr(named, name)} for name in _SHARES + _SHARES_NORMALS
+    }
+    consistency = None if named.normal_consistency is None else exactly(nan)
+    return replace(named, **lengths, **shares, normal_consistency=consistency, met=True, unmet=(), result=None)
+
+
 def metrics(a, b, *, percentile=95, bands=(), spacing=None, affine=None, tol=1e-6, device="", time=None, waves=None, memory=None,
             disable=(), progress=None, enable=(), preset="", effort=None, survey_time=None, unit_a=None, unit_b=None,
-            transform=None, scale=False, on_progress=None, figures=(), normals=None):
+            transform=None, scale=False, on_progress=None, figures=(), normals=None, empty="error"):
     """Encloses the figures of two surfaces that papers report: HD95, ASSD, Chamfer distances, surface Dice, F-scores.
 
     a, b: meshes, as distance() takes them; or two masks on one grid, arrays of three dimensions that are not 0 where the
-    label is, whose surfaces are the faces of voxels between label and not-label. percentile: of hd_p, a number of per cent such
+    label is, whose surfaces are the faces of voxels between label and not-label; or of two dimensions and booleans, whose
+    contours are the edges of pixels, and shares are of their length. percentile: of hd_p, a number of per cent such
     as 95; below 1 it is a string, '0.5%'. bands: distances in
     the coordinates' unit, or strings such as '0.5%' of A's diagonal: the shares of area within each are nsd (of both),
     precision (of A), recall (of B) and f1. spacing: of masks, the sizes of a voxel, 1 by default; or affine: four rows that
     map the number of a voxel's middle to space, as NIfTI's. figures: names such as 'f1' or 'hd95' that alone are sought,
-    which takes less time; all by default. normals: degrees, for figures of normals that agree to so many. The rest is as in distance(). Returns Metrics. ValueError if
-    a surface has no area.
+    which takes less time; all by default. normals: degrees, for figures of normals that agree to so many.
+    empty: of masks, 'error', or 'inf': if one is empty, lengths are inf, shares 0 and those of the empty one nan; of two that
+    are empty all is nan. The rest is as in distance(). Returns Metrics. ValueError if a surface has no area.
     """
+    if empty not in ("error", "inf"):
+        raise ValueError(f"empty: expected 'error' or 'inf', not {empty!r}")
+    missing = (False, False)
     if _masks.is_mask(a) or _masks.is_mask(b):
-        a, b = _masks.surfaces(a, b, spacing, affine)
+        (a, b), missing = _masks.surfaces(a, b, spacing, affine, bands, empty)
+        effort = 0 if any(missing) else effort  # the voxel only names the figures
     elif spacing is not None or affine is not None:
         raise TypeError(f"{'affine' if spacing is None else 'spacing'}: is of masks, arrays of three dimensions")
-    return _made(_core._metrics(a, b, percentile=percentile, bands=bands, tol=tol, device=device, time=time, waves=waves,
+    made = _made(_core._metrics(a, b, percentile=percentile, bands=bands, tol=tol, device=device, time=time, waves=waves,
                                 memory=memory, disable=disable, progress=progress, enable=enable, preset=preset, effort=effort,
                                 survey_time=survey_time, unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale,
                                 on_progress=on_progress, figures=figures, normals=normals))
+    return _without_surface(made, *missing) if any(missing) else made

@@ -222,6 +222,16 @@ TEST_CASE("triangle.h: surface_distance_up is never below the distance, and is t
 
 namespace {
 
+/// Weights of a point next to a corner of a triangle, by 2^-30 to 2^-10 of it, or next to an edge
+/// there.
+glm::dvec3 next_to_corner(Random& random) {
+  const double beside = log_uniform(random, -30, -10);
+  const double turned = random.below(2) == 0 ? random.unit() : log_uniform(random, -20, -1);
+  const glm::dvec3 w(1.0 - beside, beside * turned, beside * (1.0 - turned));
+  const uint32_t turn = random.below(3);
+  return {w[turn], w[(turn + 1) % 3], w[(turn + 2) % 3]};
+}
+
 /// Above the inside of a triangle that is no sliver, by 2^-44 to 2^-18 of its size; seen from
 /// there.
 UpperCase near_case(Random& random) {
@@ -231,7 +241,8 @@ UpperCase near_case(Random& random) {
   } while (longest_edge(t) < 0x1p-10 || quality_of(t) < 0.05);
   const glm::dvec3 n = glm::cross(t.at(1) - t.at(0), t.at(2) - t.at(0));
   const double height = log_uniform(random, -44, -18) * longest_edge(t);
-  const glm::dvec3 p = on_triangle(t, barycentrics(random)) + height * glm::normalize(n);
+  const glm::dvec3 weights = random.below(2) == 0 ? barycentrics(random) : next_to_corner(random);
+  const glm::dvec3 p = on_triangle(t, weights) + height * glm::normalize(n);
   return {t, stored(p), stored(p - stored(p).value()), 0.0f, false, false, true};
 }
 
@@ -258,6 +269,7 @@ TEST_CASE("triangle.h: in a fine run a point next to a triangle is as near as it
     const double size = longest_edge(c.triangle);
     tally.require(rest <= 0x1p-34 * size, "upper is tight", describe);
     tally.measure("rest, 2^-34 of the triangle", rest / (0x1p-34 * size), describe);
+    check_step(c, got, local, tally, describe);
   }
   tally.conclude(2 * count);
 }
