@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "host/base/blanks.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/read/threemf_xml.h"
@@ -25,12 +26,6 @@ constexpr std::string_view kModelRelation =
 constexpr std::array<std::string_view, 4> kKnown = {
     kCore, kProduction, "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"};
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
 
 /// Finds the root model part.
 class Relations : public XmlReader {
