@@ -137,10 +137,13 @@ bool is_corner_list(const Property& property) {
 }
 
 // Triangle strips (in Stanford's scans) and the like: measuring only the faces beside them would
-// certify a part of the model. Edges have corners, but no area.
+// certify a part of the model. Edges have corners, but no area; a range_grid (Stanford's scans,
+// too) says which vertex, if any, is at each place of a grid.
 void check_no_other_faces(const Header& header, const MeshSource& source) {
   for (const Element& element : header.elements) {
-    if (element.count == 0 || element.name == "face" || element.name == "edge") continue;
+    if (element.count == 0 || element.name == "face" || element.name == "edge" ||
+        element.name == "range_grid")
+      continue;
     if (element.name != "tristrips" &&
         std::none_of(element.properties.begin(), element.properties.end(), is_corner_list)) {
       continue;
