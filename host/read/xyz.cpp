@@ -285,6 +285,14 @@ class XyzRows {
   FirstColumn first_;
 };
 
+/// Goes to the next line that holds more than a comment.
+bool next_row(TextScanner& scanner) {
+  while (scanner.next_full_line()) {
+    if (!comment_in(scanner.rest())) return true;
+  }
+  return false;
+}
+
 void check_first_column(const MeshSource& source, const std::string& place,
                         const PointColumns& columns, const FirstColumn& first) {
   if (!first.may_be_numbers()) return;
@@ -334,9 +342,7 @@ Mesh read_xyz_whole(const MeshSource& source) {
     check_count(source, scanner.place(), announced, rows.count());
     check_first_column(source, begin, columns, rows.first_column());
     announced = rows.next_count();
-    goes_on = announced.has_value();
-    while (goes_on && scanner.next_full_line() && comment_in(scanner.rest())) {
-    }
+    goes_on = announced && next_row(scanner);
   }
   if (announced) check_count(source, scanner.place(), announced, 0);
   note_head(head, columns, scans, builder);

@@ -362,7 +362,7 @@ def points(cases):
     cases.accept_points('grid', 4, ply('ascii', VERTEX + grid, VERTEX_ROWS + '1 0\n0\n1 1\n1 2\n0\n1 3\n', ['obj_info num_cols 3', 'obj_info num_rows 2']))
     cases.accept_points('grid_binary', 4, ply(LITTLE, VERTEX + grid, V + rows))
     cases.accept_points('grid_first', 4, ply(LITTLE, grid + VERTEX, rows + V))
-    cases.refuse_points('grid_cut', ply(LITTLE, VERTEX + grid, V + rows[:-1]), 'the file ends')
+    cases.refuse_points('grid_cut', ply(LITTLE, VERTEX + grid, V + rows[:-1]), "row 5 of 'range_grid'")
     cases.refuse('grid_alone', ply(LITTLE, VERTEX + grid, V + rows), "4 points and no element 'face'")
     cases.accept('grid_beside_faces', 4, ply(LITTLE, VERTEX + grid + FACE, V + rows + F))
     cases.refuse_points('strips_alone', ply('ascii', VERTEX + ['element tristrips 1', CORNERS], VERTEX_ROWS + '3 0 1 2\n'), 'tristrips')

@@ -58,7 +58,8 @@ def names(cases):
     for name, heading in (('id', 'ID X Y Z\n'), ('comment', '# id x y z\n'), ('slashes', '//ID X Y Z\n'), ('sentence', '# the columns: id x y z\n')):
         cases.accept_points(f'named_{name}', 4, heading + numbered, moved)
     colmap = '# 3D point list\n#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n# Number of points: 4, mean track length: 2\n'
-    cases.accept_points('colmap', 4, colmap + numbered.replace('\n', ' 1 2 3 0.5 1 0\n', 2).replace(' 0\n', ' 0 1 2 3 0.5 1 0 2 7\n'), moved)
+    cases.accept_points('colmap', 4, colmap + ''.join(f'{row} 1 2 3 0.5{" 7 9" * i}\n' for i, row in enumerate(numbered.splitlines())), moved)
+    cases.refuse_points('colmap_cut', colmap + numbered.replace('\n', ' 1 2 3 0.5 4 7\n', 3), 'line 7: 4 columns')
     cases.refuse_points('numbered', numbered, 'line 1: a first column of increasing integers')
     cases.refuse_points('numbered_with_gaps', '3 0.5 1 0\n7 1 0 0\n90 0 1 0\n', 'line 1: a first column of increasing integers')
     cases.refuse_points('numbered_under_three_names', 'X Y Z\n' + numbered, 'line 2: a first column of increasing integers')
