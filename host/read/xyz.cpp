@@ -325,9 +325,13 @@ void note_head(const XyzHead& head, const PointColumns& columns, size_t scans,
   if (scans > 1) note(std::to_string(scans) + " scans, all of which are read");
 }
 
-Mesh read_xyz_whole(const MeshSource& source) {
-  if (const size_t zero = source.bytes.find('\0'); zero != std::string_view::npos)
+void refuse_zero_byte(const MeshSource& source, std::string_view text) {
+  if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
     reject(source.name, "byte " + std::to_string(zero), "a zero byte", "text, as XYZ is");
+}
+
+Mesh read_xyz_whole(const MeshSource& source) {
+  refuse_zero_byte(source, source.bytes);
   TextScanner scanner = whole_text(source).scanner(source.name);
   const XyzHead head = read_head(scanner);
   FileMeshBuilder builder(source);
@@ -352,16 +356,17 @@ Mesh read_xyz_whole(const MeshSource& source) {
 Mesh read_xyz_by_blocks(const MeshSource& source) {
   Windows windows(source);
   Windows::Window window(windows);
-  TextScanner scanner(window.read(0, std::min(kTextHeader, source.size())), source.name);
+  const std::string_view text = window.read(0, std::min(kTextHeader, source.size()));
+  TextScanner scanner(text, source.name);
   const XyzHead head = read_head(scanner);
+  refuse_zero_byte(source, text.substr(0, head.begin));
   check_header_ends(scanner, source);
   const PointColumns columns = columns_of_row(scanner, source, head.names);
   TextBlocks blocks(source, head.begin, Cut::kLine);
   std::vector<FileMeshBuilder> builders = blocks.builders();
   std::vector<FirstColumn> first_columns(blocks.count());
   blocks.for_each(pool_of(source), [&](size_t i, const TextBlock& block) {
-    if (block.text.find('\0') != std::string_view::npos)
-      reject(source.name, "byte 0", "a zero byte", "text");
+    refuse_zero_byte(source, block.text);
     TextScanner lines = block.scanner(source.name);
     if (!lines.next_full_line()) return;
     XyzRows rows(lines, columns, builders[i]);
