@@ -122,8 +122,8 @@ void check_records(const MeshSource& source, std::string_view head, const LasHea
   const uint64_t end = end_of_records(head, begin, size), room = (end - begin) / bytes;
   if (header.count == room) return;
   refuse(source, byte,
-         counted(header.count, "point") + " announced, " + counted(room, "record") +
-             " of " + counted(bytes, "byte") + " present",
+         counted(header.count, "point") + " announced, " + counted(room, "record") + " of " +
+             counted(bytes, "byte") + " present",
          header.count > room ? "a file that holds them"
                              : "the count of all points: the header may be unfinished");
 }
