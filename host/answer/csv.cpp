@@ -1,5 +1,7 @@
 #include "host/answer/csv.h"
 
+#include <algorithm>
+
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -14,15 +16,16 @@ bool CsvReader::separates(int c) {
 
 // Returns true if the row goes on after the cell.
 bool CsvReader::read_cell(std::string& cell) {
-  const bool is_quoted = text_.peek() == '"';
-  if (is_quoted) text_.get();
-  bool is_within = is_quoted;
+  bool was_quoted = false, is_within = false;
   for (int c; (c = text_.get()) != std::istream::traits_type::eof();) {
     if (c == '\n') ++lines_read_;
     if (is_within && c == '"' && text_.peek() == '"') {
       cell += static_cast<char>(text_.get());
     } else if (is_within && c == '"') {
       is_within = false;
+    } else if (c == '"' && !was_quoted && cell.find_first_not_of(" \t") == std::string::npos) {
+      cell.clear();
+      was_quoted = is_within = true;
     } else if (!is_within && separates(c)) {
       return true;
     } else if (!is_within && c == '\n') {
@@ -37,13 +40,25 @@ bool CsvReader::read_cell(std::string& cell) {
   return false;
 }
 
+bool CsvReader::skip_comment() {
+  if (comment_ == '\0') return false;
+  while (text_.peek() == ' ' || text_.peek() == '\t') text_.get();
+  if (text_.peek() != comment_) return false;
+  std::string line;
+  std::getline(text_, line);
+  ++lines_read_;
+  return true;
+}
+
 std::optional<std::vector<std::string>> CsvReader::next() {
   while (text_.peek() != std::istream::traits_type::eof()) {
+    if (skip_comment()) continue;
     line_ = lines_read_ + 1;
     std::vector<std::string> row;
     bool goes_on = true;
     while (goes_on) goes_on = read_cell(row.emplace_back());
-    if (row.size() == 1 && row[0].empty()) continue;
+    if (std::all_of(row.begin(), row.end(), [](const auto& cell) { return cell.empty(); }))
+      continue;
     is_decided_ = true;
     return row;
   }

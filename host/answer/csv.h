@@ -12,9 +12,10 @@ namespace vkh {
 
 class CsvReader {
  public:
-  explicit CsvReader(std::istream& text) : text_(text) {}
-  /// The next row that is not empty; none at the end. Cells in quotes may hold separators, doubled
-  /// quotes and line ends. Throws InputError for a quote that does not end.
+  /// Rows that begin with `comment` are none; '\0' for files without comments.
+  explicit CsvReader(std::istream& text, char comment = '\0') : text_(text), comment_(comment) {}
+  /// The next row that has a cell which is not empty; none at the end. Cells in quotes may hold
+  /// separators, doubled quotes and line ends. Throws InputError for a quote that does not end.
   std::optional<std::vector<std::string>> next();
   uint64_t line() const { return line_; }  ///< the line where that row begins, from 1
   /// A comma, or a semicolon if that comes first in the first row, outside quotes.
@@ -23,7 +24,9 @@ class CsvReader {
  private:
   bool read_cell(std::string& cell);
   bool separates(int c);
+  bool skip_comment();
   std::istream& text_;
+  char comment_;
   uint64_t line_ = 0, lines_read_ = 0;
   char separator_ = ',';
   bool is_decided_ = false;  // the first separator, or the end of the first row, was read

@@ -1,9 +1,15 @@
 #include "host/answer/face_limits.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <optional>
+#include <utility>
 
+#include "host/answer/csv.h"
+#include "host/base/blanks.h"
 #include "host/base/byte_order_mark.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
@@ -13,12 +19,6 @@
 
 namespace vkh {
 namespace {
-
-std::string trimmed(const std::string& text) {
-  const size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
 
 Limit limit_of(const std::string& word, const std::string& file_unit, const Diagonal& of_a) {
   double number = 0;
@@ -52,6 +52,54 @@ std::vector<Limit> limits_of_triangles(const Mesh& mesh, std::vector<Limit> limi
   return out;
 }
 
+/// A row of a CSV: a face, and the text of its limit.
+struct FaceRow {
+  std::string face, max;
+};
+
+/// What commas or semicolons separate behind the face is its limit, which may be no length.
+FaceRow row_of(const std::vector<std::string>& cells, char separator) {
+  FaceRow row{.face = std::string(trimmed(cells[0])), .max = {}};
+  size_t end = cells.size();
+  while (end > 2 && trimmed(cells[end - 1]).empty()) --end;
+  for (size_t i = 1; i < end; ++i) row.max += (i == 1 ? "" : std::string(1, separator)) + cells[i];
+  row.max = std::string(trimmed(row.max));
+  return row;
+}
+
+bool is_heading(const FaceRow& row) {
+  const auto is = [](const std::string& word, std::string_view name) {
+    return std::equal(word.begin(), word.end(), name.begin(), name.end(), [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == b;
+    });
+  };
+  return is(row.face, "face") && is(row.max, "max");
+}
+
+/// Reads the rows of a CSV, in the order of the file.
+class FaceRows {
+ public:
+  FaceRows(std::istream& text, const std::string& path) : path_(path), csv_(text, '#') {}
+
+  std::optional<FaceRow> next() {
+    try {
+      auto cells = csv_.next();
+      if (!cells) return std::nullopt;
+      FaceRow row = row_of(*cells, csv_.separator());
+      const bool is_first = std::exchange(is_first_, false);
+      return is_first && is_heading(row) ? next() : row;
+    } catch (const InputError& error) {
+      reject(path_, place(), error.what(), "a CSV of face, max");
+    }
+  }
+  std::string place() const { return "line " + std::to_string(csv_.line()); }
+
+ private:
+  const std::string& path_;
+  CsvReader csv_;
+  bool is_first_ = true;
+};
+
 }  // namespace
 
 std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
@@ -60,35 +108,28 @@ std::vector<Limit> read_face_limits(const std::string& path, const Mesh& mesh,
   const uint64_t face_count = mesh.file_faces.count(mesh.faces.size());
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) reject(path, "", "no file to be read", "a CSV of face, max");
-  skip_byte_order_mark(file);
+  skip_byte_order_mark(file, path);
   // No CSV begins with a p. This is the only look at a CSV before it is read: it may be a pipe.
   if (file.peek() == 'p') return limits_of_triangles(mesh, limits_in_ply(path, face_count));
   std::vector<Limit> limits(face_count, otherwise);
   std::vector<bool> named(face_count);
-  uint64_t number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    line = trimmed(line);
-    const size_t comma = line.find(',');
-    if (line.empty() || line[0] == '#') continue;
-    const std::string place = "line " + std::to_string(number);
-    const std::string word = trimmed(line.substr(0, comma));
-    const std::string max = comma == std::string::npos ? "" : trimmed(line.substr(comma + 1));
-    if (number == 1 && word == "face" && max == "max") continue;
+  FaceRows rows(file, path);
+  while (const auto row = rows.next()) {
     uint64_t face = 0;
-    if (!parse_number(word, face) || face >= face_count)
-      reject(path, place, vkh::quoted(word), "a face from 0 to " + std::to_string(face_count - 1));
-    if (named[face]) reject(path, place, "face " + word + " once more", "each face once");
+    if (!parse_number(row->face, face) || face >= face_count)
+      reject(path, rows.place(), vkh::quoted(row->face),
+             "a face from 0 to " + std::to_string(face_count - 1));
+    if (named[face])
+      reject(path, rows.place(), "face " + row->face + " once more", "each face once");
     named[face] = true;
     try {
-      limits[face] = limit_of(max, file_unit, of_a);
+      limits[face] = limit_of(row->max, file_unit, of_a);
     } catch (const UsageError& error) {
-      reject(path, place, vkh::quoted(max), std::string("face, max; ") + error.what());
+      reject(path, rows.place(), vkh::quoted(row->max), std::string("face, max; ") + error.what());
     }
   }
   if (file.bad())
-    throw InputError(
-        {.file = path, .place = "line " + std::to_string(number), .problem = "cannot be read"});
+    throw InputError({.file = path, .place = rows.place(), .problem = "cannot be read"});
   return limits_of_triangles(mesh, std::move(limits));
 }
 

@@ -1,9 +1,11 @@
 #include "host/answer/options.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
+#include "host/base/blanks.h"
 #include "host/base/decimal.h"
 #include "host/base/from_chars.h"
 #include "vkhausdorff/error.h"
@@ -119,11 +121,11 @@ double parse_time(const std::string& text) {
 }
 
 std::optional<SidedMax> parse_sided(const char* option, const std::string& text) {
-  const bool is_sided = text.starts_with('+') || text.starts_with('-');
+  const size_t comma = std::min(text.find(','), text.size());
+  const std::string first(trimmed(text.substr(0, comma)));
+  const std::string second(trimmed(text.substr(std::min(comma + 1, text.size()))));
+  const bool is_sided = first.starts_with('+') || first.starts_with('-');
   if (!is_sided) return {};
-  const size_t comma = text.find(',');
-  const std::string first = text.substr(0, comma);
-  const std::string second = comma == std::string::npos ? "" : text.substr(comma + 1);
   const bool is_both =
       (first[0] == '+' && second.starts_with('-')) || (first[0] == '-' && second.starts_with('+'));
   if (!is_both)
@@ -132,8 +134,9 @@ std::optional<SidedMax> parse_sided(const char* option, const std::string& text)
            "+0.1mm,-0.05mm");
   const std::string& over = first[0] == '+' ? first : second;
   const std::string& under = first[0] == '+' ? second : first;
-  return SidedMax{parse_length(option, over.substr(1), PlainNumber::kRefused),
-                  parse_length(option, under.substr(1), PlainNumber::kRefused)};
+  return SidedMax{
+      parse_length(option, std::string(trimmed(over.substr(1))), PlainNumber::kRefused),
+      parse_length(option, std::string(trimmed(under.substr(1))), PlainNumber::kRefused)};
 }
 
 std::string sided_text(const Length& over, const Length& under) {
@@ -142,8 +145,9 @@ std::string sided_text(const Length& over, const Length& under) {
 
 void put_max(const char* option, const std::string& text, Question& question) {
   question.max_sides = parse_sided(option, text);
-  question.max = question.max_sides ? question.max_sides->over
-                                    : parse_length(option, text, PlainNumber::kRefused);
+  question.max = question.max_sides
+                     ? question.max_sides->over
+                     : parse_length(option, std::string(trimmed(text)), PlainNumber::kRefused);
 }
 
 void put_points(const char* option, const std::string& text, Question& question) {

@@ -242,6 +242,12 @@ void add_note_on_stretch(const Box& box, Answer& answer) {
   for (int i = 0; i < 3; ++i) farthest[i] = std::max(std::abs(box.lo[i]), std::abs(box.hi[i]));
   const double moved = stretch * glm::length(farthest);
   if (!(moved > 0.1 * answer.a_to_b.tolerance)) return;
+  if (!std::isfinite(moved)) {
+    answer.notes.push_back(
+        note_of(NoteCode::kStretch,
+                "the matrix is no exact rotation: it stretches A by more than 1e308 %"));
+    return;
+  }
   answer.notes.push_back(note_of(
       NoteCode::kStretch,
       "the matrix is no exact rotation: it stretches A by up to " +

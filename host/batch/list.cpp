@@ -200,7 +200,9 @@ void check_decimal_point(const std::string& name, const std::string& text, char 
   const bool is_length = name == "tol" || name == "max";
   const size_t comma = text.find(',');
   if (separator != ';' || !is_length || comma == std::string::npos) return;
-  const bool is_of_sides = comma == text.rfind(',') && text.find_first_of("+-", comma) == comma + 1;
+  const size_t behind = text.find_first_not_of(' ', comma + 1);
+  const bool is_of_sides = comma == text.rfind(',') && behind != std::string::npos &&
+                           (text[behind] == '+' || text[behind] == '-');
   if (is_of_sides) return;
   const std::string meant = length_meant(text);
   throw InputError(name + " '" + text +
@@ -209,7 +211,6 @@ void check_decimal_point(const std::string& name, const std::string& text, char 
 }
 
 void read_csv(std::istream& text, Collected& to) {
-  skip_byte_order_mark(text);
   CsvReader rows(text);
   std::optional<std::vector<std::string>> heading;
   const auto next = [&] {
@@ -296,6 +297,7 @@ PairList read_list(const std::string& path) {
   std::ifstream file(path_of(path), std::ios::binary);
   if (!file) reject(path, "", "cannot be read", "a list of pairs");
   Collected collected(path);
+  skip_byte_order_mark(file, path);
   if (lower_word(path).ends_with(".csv")) {
     read_csv(file, collected);
   } else {

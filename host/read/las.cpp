@@ -1,6 +1,7 @@
-// LAS 1.2 to 1.4, point data formats 0 to 10 (ASPRS, LAS specification 1.4 R15). A record begins
-// with three integers: a coordinate is its integer times the header's scale, plus the header's
-// offset. Points that are withheld, which the specification calls deleted, are left out and noted.
+// LAS 1.0 to 1.5, point data formats 0 to 10 (ASPRS, LAS specifications 1.0, 1.4 R16 and 1.5 R00).
+// A record begins with three integers: a coordinate is its integer times the header's scale, plus
+// the header's offset. Points that are withheld, which the specification calls deleted, are left
+// out and noted.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +19,7 @@ namespace {
 
 /// The parts of the header that say where the points lie.
 struct LasHeader {
+  unsigned minor = 0;             ///< of version 1
   uint64_t begin = 0, count = 0;  ///< the byte of the first record; records
   uint64_t record_bytes = 0;
   unsigned format = 0;
@@ -29,8 +31,8 @@ T at(std::string_view head, size_t offset) {
   return load<T>(head.data() + offset);
 }
 
-constexpr uint64_t kHeaderBytes = 227;    // of LAS 1.2
-constexpr uint64_t kHeaderBytes14 = 375;  // of LAS 1.4
+constexpr uint64_t kHeaderBytes = 227;    // of LAS 1.0 to 1.2; 1.3 adds 8 bytes
+constexpr uint64_t kHeaderBytes14 = 375;  // of LAS 1.4; 1.5 adds 18 bytes of times
 constexpr std::array<uint64_t, 11> kRecordBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
 [[noreturn]] void refuse(const MeshSource& source, uint64_t byte, const std::string& what,
@@ -40,10 +42,10 @@ constexpr std::array<uint64_t, 11> kRecordBytes = {20, 28, 26, 34, 57, 63, 30, 3
 
 void check_version(const MeshSource& source, std::string_view head) {
   const unsigned major = at<uint8_t>(head, 24), minor = at<uint8_t>(head, 25);
-  if (major != 1 || minor < 2 || minor > 4)
+  if (major != 1 || minor > 5)
     refuse(source, 24, "LAS " + std::to_string(major) + "." + std::to_string(minor),
-           "LAS 1.2, 1.3 or 1.4");
-  const uint64_t least = minor == 4 ? kHeaderBytes14 : kHeaderBytes;
+           "LAS 1.0 to 1.5");
+  const uint64_t least = minor >= 4 ? kHeaderBytes14 : kHeaderBytes;
   if (head.size() < least || at<uint16_t>(head, 94) < least)
     refuse(source, 94, "a header that ends early", "a whole LAS header");
 }
@@ -59,7 +61,7 @@ unsigned format_of(const MeshSource& source, std::string_view head) {
   return format;
 }
 
-// LAS 1.4 counts in 64 bits. Its count of 32 bits is for older readers, and may be 0.
+// LAS counts in 64 bits from 1.4 on. Its count of 32 bits is for older readers, and may be 0.
 uint64_t count_of(const MeshSource& source, std::string_view head) {
   const uint64_t old = at<uint32_t>(head, 107);
   if (at<uint8_t>(head, 25) < 4) return old;
@@ -80,12 +82,59 @@ void check_places(const MeshSource& source, const LasHeader& header) {
   }
 }
 
+// The bytes behind a header's end are none of it.
+template <class T>
+T field(std::string_view head, size_t offset) {
+  const size_t end = std::min<size_t>(at<uint16_t>(head, 94), head.size());
+  return offset + sizeof(T) > end ? T{} : at<T>(head, offset);
+}
+
+// Returns where the room for records ends: at the waveforms (1.3 on) or at the first extended
+// record (1.4 on), which stand behind the points, or else with the file.
+uint64_t end_of_records(std::string_view head, uint64_t begin, uint64_t size) {
+  const unsigned minor = at<uint8_t>(head, 25);
+  uint64_t end = size;
+  const auto stop_at = [&](uint64_t byte) {
+    if (byte >= begin && byte < end) end = byte;
+  };
+  if (minor >= 3) stop_at(field<uint64_t>(head, 227));
+  if (minor >= 4 && field<uint32_t>(head, 243) > 0) stop_at(field<uint64_t>(head, 235));
+  return end;
+}
+
+// In LAS 1.0 two bytes stand before the points. Some writers count them to the points.
+void skip_signature(const MeshSource& source, LasHeader& header) {
+  constexpr std::string_view kSignature = "\xdd\xcc";
+  const uint64_t behind = header.begin + kSignature.size();
+  if (header.minor > 0 || behind + header.count * header.record_bytes != source.size()) return;
+  Windows windows(source);
+  if (Windows::Window(windows).read(header.begin, behind) == kSignature) header.begin = behind;
+}
+
+// Refuses records that the header does not count as it does those that are missing: a part of the
+// points must not pass for all.
+void check_records(const MeshSource& source, std::string_view head, const LasHeader& header) {
+  const uint64_t size = source.size(), begin = header.begin, bytes = header.record_bytes;
+  const uint64_t byte = header.minor >= 4 ? 247 : 107;
+  if (begin < at<uint16_t>(head, 94) || begin > size)
+    refuse(source, 96, "points from byte " + std::to_string(begin) + " on",
+           "a place behind the header, in a file that holds them");
+  const uint64_t end = end_of_records(head, begin, size), room = (end - begin) / bytes;
+  if (header.count == room) return;
+  refuse(source, byte,
+         counted(header.count, "point") + " announced, " + counted(room, "record") + " of " +
+             counted(bytes, "byte") + " present",
+         header.count > room ? "a file that holds them"
+                             : "the count of all points: the header may be unfinished");
+}
+
 LasHeader read_las_header(const MeshSource& source) {
   const std::string head = head_of(source, kHeaderBytes14);
   if (head.size() < kHeaderBytes)
     refuse(source, head.size(), "the file ends", "a whole LAS header");
   check_version(source, head);
-  LasHeader header{.begin = at<uint32_t>(head, 96),
+  LasHeader header{.minor = at<uint8_t>(head, 25),
+                   .begin = at<uint32_t>(head, 96),
                    .count = count_of(source, head),
                    .record_bytes = at<uint16_t>(head, 105),
                    .format = format_of(source, head)};
@@ -97,20 +146,16 @@ LasHeader read_las_header(const MeshSource& source) {
     header.offset[static_cast<int>(i)] = at<double>(head, 155 + 8 * i);
   }
   check_places(source, header);
-  const uint64_t begin = header.begin, size = source.size();
-  if (begin < at<uint16_t>(head, 94) || begin > size ||
-      header.count > (size - begin) / header.record_bytes)
-    refuse(source, 107,
-           counted(header.count, "point") + " of " + counted(header.record_bytes, "byte") +
-               " from byte " + std::to_string(begin) + " on",
-           "a file that holds them");
+  skip_signature(source, header);
+  check_records(source, head, header);
   if (header.count >= UINT32_MAX) refuse(source, 107, "too many points", "fewer than 2^32 - 1");
   return header;
 }
 
-bool is_withheld(unsigned format, const char* record) {
+// The flags came with LAS 1.1: in 1.0 the byte is a class of the user's.
+bool is_withheld(const LasHeader& header, const char* record) {
   const auto flags = load<uint8_t>(record + 15);
-  return (flags & (format < 6 ? 0x80 : 0x04)) != 0;
+  return header.minor > 0 && (flags & (header.format < 6 ? 0x80 : 0x04)) != 0;
 }
 
 /// The least and the largest integer of each axis.
@@ -171,7 +216,7 @@ LasBlock read_block(const LasHeader& header, std::string_view bytes, bool keeps_
   LasBlock block;
   for (size_t at = 0; at < bytes.size(); at += header.record_bytes) {
     const char* const record = bytes.data() + at;
-    if (is_withheld(header.format, record) && ++block.withheld > 0 && !keeps_withheld) {
+    if (is_withheld(header, record) && ++block.withheld > 0 && !keeps_withheld) {
       block.file_faces.add(block.points, 0);
       continue;
     }

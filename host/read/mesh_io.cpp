@@ -103,15 +103,6 @@ bool looks_like_obj(std::string_view head) {
   return std::find(kKeywords.begin(), kKeywords.end(), scanner.word()) != kKeywords.end();
 }
 
-// Recognises rows of numbers, perhaps behind a count; of columns between commas the first number.
-bool looks_like_xyz(std::string_view head) {
-  TextScanner scanner(head, "", '#', MixedLineEnds::kIgnored);
-  double number = 0;
-  if (!scanner.next_full_line()) return false;
-  const std::string_view word = scanner.word();
-  return parse_number(word.substr(0, word.find_first_of(",;")), number);
-}
-
 // Formats that hold points, besides those that hold faces, too.
 Parse parser_of_points(const std::string& extension, std::string_view head) {
   if (head.starts_with(kLasMagic)) return parse_las;
@@ -198,7 +189,8 @@ RecognisedFile recognise_format(const MeshSource& file) {
   if (!parse) parse = parser_by_extension(extension);
   if (!parse && looks_like_obj(head)) parse = parse_obj;
   if (!parse) refuse_stranger(source.name, stranger_by_extension(extension));
-  if (!parse && points && looks_like_xyz(head)) parse = parse_xyz;
+  const bool is_text = extension == ".txt" || extension == ".csv";
+  if (!parse && points && (is_text || looks_like_xyz(head))) parse = parse_xyz;
   if (!parse && looks_like_xyz(head))
     reject(source.name, "byte 0", "rows of numbers (points, no faces)", kAMesh);
   if (!parse)

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/base/byte_order_mark.h"
 #include "host/base/decimal.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
@@ -61,12 +62,25 @@ Rows3 squares_of(const MatrixRows& rows) {
   return squares;
 }
 
-Float128 determinant(const MatrixRows& m) {
-  const auto minor = [&](size_t j, size_t k) {
-    return float128(m[1][j]) * float128(m[2][k]) - float128(m[1][k]) * float128(m[2][j]);
-  };
-  return float128(m[0][0]) * minor(1, 2) - float128(m[0][1]) * minor(0, 2) +
-         float128(m[0][2]) * minor(0, 1);
+/// The determinant, and the sum of its six products by size.
+struct Determinant {
+  Float128 value = 0, terms = 0;
+};
+
+// Products of two doubles are exact in Float128, and each sum and each further product is off by
+// 2^-113 of itself: a minor once, its product with an entry once more, two sums. So the value is
+// off by at most 5 * 2^-113 of `terms`, whose own roundings the fifth covers.
+Determinant determinant(const MatrixRows& m) {
+  Determinant d;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const Float128 entry = float128(m[0][i]);
+    const Float128 one = float128(m[1][j]) * float128(m[2][k]);
+    const Float128 other = float128(m[1][k]) * float128(m[2][j]);
+    d.value += entry * (one - other);
+    d.terms += magnitude(entry) * (magnitude(one) + magnitude(other));
+  }
+  return d;
 }
 
 double up(Float128 x) {
@@ -84,7 +98,11 @@ double growth_of(const MeshTransform& placement) {
     square = squares[0][0] + squares[1][1] + squares[2][2];
   }
   const Float128 factor = float128(placement.numerator) / float128(placement.denominator);
-  return std::sqrt(up(square * factor * factor)) * kOutward;
+  square = square * factor * factor;
+  // A square may be beyond any double where its root is not. Powers of two change no bit.
+  const int scale = square > float128(0x1p1000) ? 600 : 0;
+  const Float128 by = float128(std::ldexp(1.0, scale));
+  return std::ldexp(std::sqrt(up(square / by / by)) * kOutward, scale);
 }
 
 /// One coordinate times p / q, to nearest but for a second rounding, and a bound of its error.
@@ -150,7 +168,9 @@ MatrixRows read_matrix(const std::filesystem::path& path) {
   std::string text(static_cast<size_t>(kMost), '\0');
   file.read(text.data(), kMost);
   text.resize(static_cast<size_t>(file.gcount()));
-  const std::vector<double> numbers = numbers_in(name, text);
+  refuse_utf16(name, text);
+  const size_t mark = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  const std::vector<double> numbers = numbers_in(name, std::string_view(text).substr(mark));
   const auto refuse = [&](const std::string& what) { reject(name, "", what, kAMatrix); };
   if (numbers.size() != 16) refuse(std::to_string(numbers.size()) + " numbers");
   const auto is_last = [&](size_t first, size_t step) {
@@ -194,20 +214,16 @@ void check_matrix(const std::string& name, const MatrixRows& rows, bool may_stre
     if (!std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); }))
       refuse("a number that is not finite", kAMatrix);
   }
-  const Float128 volume = determinant(rows);
-  if (volume < 0) refuse("mirrors (its determinant is negative)", kARotation);
+  // A determinant of that size has its own sign: 2^-110 is eight times 2^-113.
+  const auto [volume, terms] = determinant(rows);
+  const bool has_sign = magnitude(volume) > terms * float128(0x1p-110);
+  if (has_sign && volume < 0) refuse("mirrors (its determinant is negative)", kARotation);
   const double stretch = stretch_of(rows);
   if (!may_stretch && !(stretch <= kMostStretch))
     refuse(
         "stretches by more than 1e-6 (|R^T R - I| is " + decimal(stretch, 3, Rounding::kUp) + ")",
         "a rotation and a shift, or --scale, which allows any");
-  // Entries of one row by one: a volume that small against them is a rounding.
-  Float128 largest = 0;
-  for (const auto& row : rows) {
-    for (size_t i = 0; i < 3; ++i) largest = std::max(largest, magnitude(float128(row[i])));
-  }
-  if (!(volume > largest * largest * largest * float128(0x1p-90)))
-    refuse("flattens (its determinant is 0)", kARotation);
+  if (!has_sign) refuse("flattens (its determinant is 0, or too near it for a sign)", kARotation);
 }
 
 void place(Mesh& mesh, const MeshTransform& placement, const std::string& unit, bool hash_corners) {
@@ -218,7 +234,7 @@ void place(Mesh& mesh, const MeshTransform& placement, const std::string& unit, 
   const double delta = move_vertices(mesh, placement);
   check_finite(mesh, unit);
   mesh.delta = add_up(placed.delta, delta);
-  mesh.polygons.ambiguity *= growth;
+  if (mesh.polygons.ambiguity > 0) mesh.polygons.ambiguity *= growth;
   for (Note& note : mesh.notes) {
     if (note.code == NoteCode::kAmbiguity) note = note_on_ambiguity(mesh.polygons);
   }

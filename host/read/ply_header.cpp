@@ -154,12 +154,13 @@ bool is_corner_list(const Property& property) {
          std::find(kCornerLists.begin(), kCornerLists.end(), property.name) != kCornerLists.end();
 }
 
-// Polygons of other names, grids and the like: measuring only the faces beside them would certify a
-// part of the model. Edges have corners, but no area.
+// Polygons of other names, grids of them and the like: measuring only the faces beside them would
+// certify a part of the model. Edges have corners, but no area; a range_grid (of Stanford's scans)
+// says which vertex, if any, is at each place of a grid.
 void check_no_other_faces(const Header& header, const MeshSource& source) {
   for (const Element& element : header.elements) {
     if (element.count == 0 || element.name == "face" || element.name == kStrips ||
-        element.name == "edge" ||
+        element.name == "edge" || element.name == "range_grid" ||
         std::none_of(element.properties.begin(), element.properties.end(), is_corner_list)) {
       continue;
     }

@@ -45,6 +45,9 @@ inline constexpr std::string_view kLasMagic = "LASF";
 /// requires. No text passes: its bytes there would announce more than 6 GB.
 bool is_exact_binary_stl(std::string_view head, uint64_t size);
 
+/// Returns true for rows of numbers, perhaps behind comments, a count and names of columns.
+bool looks_like_xyz(std::string_view head);
+
 /// Reads what follows the last row that a text announced, and notes it. A line that begins with a
 /// number is a row more than announced and is refused: measuring only those counted would certify a
 /// part of the model.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "host/base/blanks.h"
 #include "host/base/parse_number.h"
 
 namespace vkh {
@@ -15,9 +16,6 @@ namespace vkh {
 /// lines that end in LF, or the reverse. Some readers take the rest as a line of its own, and
 /// others as part of a comment or a name.
 enum class MixedLineEnds { kRefused, kIgnored };
-
-/// Whether C's isspace() holds for it, whatever the locale.
-inline bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 /// Whether a word is what C libraries print for a float that is no number, or infinite: nan,
 /// -nan(ind), 1.#QNAN, inf.
@@ -49,6 +47,8 @@ class TextScanner {
 
   /// The next word of the current line, empty at its end.
   std::string_view word();
+  /// What is left of the current line.
+  std::string_view rest() const { return line_.substr(cursor_); }
   /// The first character of the next word of the current line; '\0' at its end.
   char peek() const;
   /// The next word of this line or a later one, empty at the end of the text.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "host/base/blanks.h"
 #include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/read/threemf_xml.h"
@@ -31,12 +32,6 @@ std::string_view short_name(std::string_view uri) {
   constexpr std::string_view kCommon = "3dmanufacturing/";
   const size_t at = uri.find(kCommon);
   return at == std::string_view::npos ? uri : uri.substr(at + kCommon.size());
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
 /// Finds the root model part.

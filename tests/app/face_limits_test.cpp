@@ -1,5 +1,7 @@
 // Faces by the file's own numbers, and their limits: --face-max. Runs the real program,
 // $VKH_PROGRAM.
+#include "host/answer/face_limits.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <sstream>
 
 #include "tests/support/program.h"
+#include "vkhausdorff/error.h"
 
 namespace {
 
@@ -116,6 +119,65 @@ TEST_CASE("--face-max: each face its own limit") {
   CHECK(missing.exit_code == 4);
   CHECK(missing.err.find("missing.csv: no file to be read; expected") != std::string::npos);
   CHECK(gate("0.3abs", {"--face-max-b", "back.csv"}).exit_code == 2);
+}
+
+TEST_CASE("--face-max: a CSV of all ways to write it") {
+  vkh::Mesh mesh;
+  mesh.faces.resize(4);
+  const auto limits = [&](const std::string& text) {
+    std::vector<double> of_faces;
+    for (const vkh::Limit& limit :
+         vkh::read_face_limits(write_file("ways.csv", text), mesh, {9, 9}, "mm", 1))
+      of_faces.push_back(vkh::typed_length(limit));
+    return of_faces;
+  };
+  size_t ways = 0;
+  for (const std::string mark : {"", "\xef\xbb\xbf"})
+    for (const std::string heading : {"", "face,max", "Face, Max", "\"face\",\"max\""})
+      for (const std::string separator : {",", ";", ", ", " ; ", ";\t"})
+        for (const std::string end : {"\n", "\r\n", "\n\n", ",\n", ",,\r\n"})
+          for (const std::string comment : {"", "# wide; as drawn, 1\n", "  # \"\n\n"})
+            for (const bool is_quoted : {false, true})
+              for (const bool has_last_end : {false, true}) {
+                const char mark_of = separator.find(';') == std::string::npos ? ',' : ';';
+                const auto cut = [&](std::string text) {
+                  std::replace(text.begin(), text.end(), ',', mark_of);
+                  return text;
+                };
+                const std::string three = is_quoted ? "\"3\"" : "3";
+                std::string text = mark + comment;
+                if (!heading.empty()) text += cut(heading + end);
+                text += three + separator + (is_quoted ? "\"0.25mm\"" : "0.25mm") + cut(end);
+                text += comment + "0" + separator + "1e-1" + (has_last_end ? cut(end) : "");
+                ++ways;
+                CAPTURE(text);
+                CHECK(limits(text) == std::vector<double>{0.1, 9, 9, 0.25});
+              }
+  CHECK(ways == 2400);
+  const auto refusal = [&](const std::string& text) -> std::string {
+    try {
+      limits(text);
+    } catch (const vkh::InputError& error) {
+      return error.what();
+    }
+    return "read";
+  };
+  for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
+           {"face;max\n1;0,25\n", "line 2: '0,25'"},
+           {"face,max\n1,0,25\n", "line 2: '0,25'"},
+           {"face\tmax\n1\t2\n", "line 1: 'face\\x09max'"},
+           {"max,face\n1,2\n", "line 1: 'max'; expected a face"},
+           {"# a\nface;limit\n1;2\n", "line 2: 'face'; expected a face"},
+           {"face;max\n\"1;2\n", "line 2: a quote does not end"},
+           {"face;max\n4;2\n", "line 2: '4'; expected a face from 0 to 3"},
+           {std::string("\xff\xfe"
+                        "0\0,\0001\0",
+                        8),
+            "byte 0: UTF-16 text"}}) {
+    CAPTURE(text);
+    CHECK(refusal(text).find(words) != std::string::npos);
+    CAPTURE(refusal(text));
+  }
 }
 
 TEST_CASE("faces have the file's own numbers, before polygons are fanned") {

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -59,7 +60,7 @@ TEST_CASE("a byte order mark is skipped whole, and nothing that begins like one"
                                    {"id", "id"},
                                    {"", ""}}) {
     std::istringstream in(text);
-    skip_byte_order_mark(in);
+    skip_byte_order_mark(in, "list");
     CHECK(std::string(std::istreambuf_iterator<char>(in), {}) == rest);
   }
 }
@@ -68,7 +69,8 @@ TEST_CASE("CSV as spreadsheets write it") {
   using Rows = std::vector<std::vector<std::string>>;
   CHECK(rows_of("a,b\r\n1,2\r\n") == Rows{{"a", "b"}, {"1", "2"}});
   CHECK(rows_of("a\n\n\nb") == Rows{{"a"}, {"b"}});
-  CHECK(rows_of("\"x,\"\"y\"\"\nz\",2\n,\n") == Rows{{"x,\"y\"\nz", "2"}, {"", ""}});
+  CHECK(rows_of("\"x,\"\"y\"\"\nz\",2\n,\n") == Rows{{"x,\"y\"\nz", "2"}});
+  CHECK(rows_of("a,b\n, \"1\"\n") == Rows{{"a", "b"}, {"", "1"}});
   CHECK(rows_of("a;b\r\n1;2,5\r\n") == Rows{{"a", "b"}, {"1", "2,5"}});
   CHECK(rows_of("\"a,b\";\"c;\"\n1;2") == Rows{{"a,b", "c;"}, {"1", "2"}});
   CHECK(rows_of("a,b;c\n1;2,3") == Rows{{"a", "b;c"}, {"1;2", "3"}});
@@ -119,6 +121,45 @@ TEST_CASE("a list of semicolons is the same, and has no decimal comma") {
             .ends_with("line 2: tol '0,001': expected a decimal point"));
   CHECK(error_of("s.csv", heading + "x;a.obj;b.obj\n").find("line 2: 3 cells; expected 4") !=
         std::string::npos);
+}
+
+TEST_CASE("a list of all ways to write it") {
+  size_t ways = 0;
+  for (const std::string mark : {"", "\xef\xbb\xbf"})
+    for (const std::string separator : {",", ";"})
+      for (const std::string end : {"\n", "\r\n", "\n\n", "\n,,,\n"})
+        for (const bool is_quoted : {false, true})
+          for (const std::string columns : {"id,a,b,max", "max,b,a,id", "a,max,id,b"})
+            for (const std::string limit : {"0.1mm", "+0.2mm,-0.1mm", "+0.2mm, -0.1mm"})
+              for (const bool has_last_end : {false, true}) {
+                std::string heading, row;
+                std::istringstream names(columns);
+                for (std::string name; std::getline(names, name, ',');) {
+                  const std::string cell = name == "max"  ? limit
+                                           : name == "id" ? "x"
+                                                          : name + ".obj";
+                  const bool has_comma = cell.find(',') != std::string::npos;
+                  const std::string quote =
+                      is_quoted || (has_comma && separator == ",") ? "\"" : "";
+                  heading += (heading.empty() ? "" : separator) + quote + name + quote;
+                  row += (row.empty() ? "" : separator) + quote + cell + quote;
+                }
+                std::string cut = end;
+                std::replace(cut.begin(), cut.end(), ',', separator[0]);
+                const std::string text = mark + heading + cut + row + (has_last_end ? cut : "");
+                ++ways;
+                CAPTURE(text);
+                const PairList list = read_text("ways.csv", text);
+                REQUIRE(list.entries.size() == 1);
+                CHECK(list.entries[0].id == "x");
+                CHECK(list.entries[0].a == "a.obj");
+                CHECK(list.entries[0].b == "b.obj");
+                CHECK(list.entries[0].max == limit);
+              }
+  CHECK(ways == 576);
+  for (const char* name : {"wide.csv", "wide.jsonl"})
+    CHECK(error_of(name, std::string("\xff\xfei\0d\0", 6)).find("UTF-16 text; expected ASCII") !=
+          std::string::npos);
 }
 
 TEST_CASE("what is wrong with a list is said with its line") {

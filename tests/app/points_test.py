@@ -370,11 +370,25 @@ class Points(unittest.TestCase):
                 self.assertEqual(done.returncode, 4, (pair, done.stderr))
                 self.assertIn("--points a measures points, b those of the second file", done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        for name in ("rows.txt", "rows"):
+        for name in ("rows.txt", "rows", "rows.csv"):
             self.assertEqual(self.ask("distance", name, "part.ply", "--points", "a")["inputs"][0]["faces"], 2)
-        done = self.run_here(PROGRAM, "distance", "rows.csv", "part.ply", "--points", "a")
+        self.write("decimals.csv", b"0,0 0,0 1,0\n1,0 0,0 1,0\n")
+        done = self.run_here(PROGRAM, "distance", "decimals.csv", "part.ply", "--points", "a")
         self.assertEqual(done.returncode, 4)
-        self.assertIn("rows.csv: line 1: a comma or a semicolon in '0,0,1'; expected blanks between columns", done.stderr)
+        self.assertIn("decimals.csv: line 1: decimal commas, as in '0 0'; expected decimal points", done.stderr)
+
+    def test_a_heading_says_which_columns_are_measured(self):
+        """Each point is 3 over the sheet, and would lie on it if its number were x, x y, and y z."""
+        self.write("sheet.ply", ply([(-99, -99, 0), (99, -99, 0), (0, 99, 0)], [(0, 1, 2)]))
+        rows = "".join(f"{i} {i % 3} 0 3\n" for i in range(5))
+        for name, text in (("heading.xyz", "ID X Y Z\n" + rows), ("heading.csv", "ID,X,Y,Z\n" + rows.replace(" ", ",")), ("comment.txt", "# id x y z\n" + rows)):
+            self.write(name, text.encode())
+            answer = self.ask("gate", name, "sheet.ply", "--points", "a", "--max", "0.1abs", codes=(1,))
+            self.assertIn("unread: x, y and z are columns 2, 3 and 4", [f"{note['code']}: {note['text'][:33]}" for note in answer["notes"]])
+        self.write("none.xyz", rows.encode())
+        done = self.run_here(PROGRAM, "gate", "none.xyz", "sheet.ply", "--points", "a", "--max", "0.1abs")
+        self.assertEqual(done.returncode, 4)
+        self.assertIn("expected a heading that says which: id x y z or x y z a", done.stderr)
 
     def test_what_is_no_question_is_refused(self):
         self.write("a.ply", ply([(0, 0, 0), (1, 0, 1)]))

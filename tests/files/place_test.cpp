@@ -84,6 +84,84 @@ TEST_CASE("a matrix as programs write it") {
     CHECK(read_matrix(written(text)) == moved);
 }
 
+TEST_CASE("a matrix of all ways to write it") {
+  const MatrixRows moved = {{{1, 0, 0, 1.5}, {0, 1, 0, -2}, {0, 0, 1, 0.3}}};
+  size_t ways = 0;
+  for (const char* mark :
+       {"", "\xef\xbb\xbf", "# by rows\n", "\xef\xbb\xbf# by rows, \xc3\xa4\n\n"})
+    for (const char* end : {"\n", "\r\n", "\n\n", " # y\n", ";\n", ",\n"})
+      for (const char* between : {" ", "\t", ",", ", ", ";", " ; "})
+        for (const char* zero : {"0", "0.0", "+0", "-0.000", "0e0"})
+          for (const bool has_brackets : {false, true}) {
+            std::string text = mark;
+            const char* rows[4][4] = {{"1", zero, zero, "+1.5"},
+                                      {zero, "1.", zero, "-2"},
+                                      {zero, zero, "1e0", "3e-1"},
+                                      {zero, zero, zero, "1"}};
+            for (const auto& row : rows) {
+              if (has_brackets) text += '[';
+              for (size_t i = 0; i < 4; ++i) text += (i == 0 ? "" : between) + std::string(row[i]);
+              if (has_brackets) text += ']';
+              text += end;
+            }
+            ++ways;
+            CAPTURE(text);
+            CHECK(read_matrix(written(text)) == moved);
+          }
+  CHECK(ways == 1440);
+  for (const char* mark : {"\xff\xfe", "\xfe\xff"})
+    CHECK(refusal(mark + std::string("1\0 \0", 4)).find("UTF-16") != std::string::npos);
+}
+
+TEST_CASE("a determinant has the sign that it has exactly, or is refused for having none") {
+  std::mt19937_64 random(12);
+  size_t allowed = 0, mirrors = 0, flat = 0;
+  for (int i = 0; i < 20000; ++i) {
+    MatrixRows rows = random_matrix(random, 0);
+    const auto factor = [&] { return std::ldexp(1.0, static_cast<int>(random() % 1800) - 900); };
+    const std::array<double, 3> scale = {factor(), factor(), factor()};
+    for (auto& row : rows) {
+      for (size_t k = 0; k < 3; ++k) row[k] *= i % 3 == 0 ? scale[k] : scale[0];
+    }
+    // The last row is nearly, or exactly, a sum of the others; or it is turned round.
+    const double by = i % 7 == 0 ? std::ldexp(1.0, -static_cast<int>(random() % 120)) : 1;
+    for (size_t k = 0; k < 3; ++k) {
+      if (i % 2 == 0) rows[2][k] = rows[0][k] + rows[1][k] + (i % 7 == 0 ? by * rows[2][k] : 0);
+      if (i % 5 == 0) rows[1][k] = -rows[1][k];
+    }
+    Q exact = 0;
+    for (size_t k = 0; k < 3; ++k)
+      exact += Q(rows[0][k]) * (Q(rows[1][(k + 1) % 3]) * Q(rows[2][(k + 2) % 3]) -
+                                Q(rows[1][(k + 2) % 3]) * Q(rows[2][(k + 1) % 3]));
+    std::string refused;
+    try {
+      check_matrix("M", rows, true);
+    } catch (const InputError& error) {
+      refused = error.what();
+    }
+    if (refused.empty()) CHECK(exact > 0);
+    if (refused.find("mirrors") != std::string::npos) CHECK(exact < 0);
+    allowed += refused.empty();
+    mirrors += refused.find("mirrors") != std::string::npos;
+    flat += refused.find("flattens") != std::string::npos;
+  }
+  MESSAGE(allowed << " allowed, " << mirrors << " mirror, " << flat << " without a sign");
+  CHECK(allowed > 1000);
+  CHECK(mirrors > 1000);
+  CHECK(flat > 100);
+  for (const double large : {1e300, 1e-300, 0x1p1000}) {
+    const MatrixRows one = {{{large, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    CHECK_NOTHROW(check_matrix("M", one, true));
+    const MatrixRows all = {{{large, 0, 0, 0}, {0, large, 0, 0}, {0, 0, large, 0}}};
+    CHECK_NOTHROW(check_matrix("M", all, true));
+    Mesh mesh = mesh_of({{1, 2, 3}});
+    place(mesh, {.matrix = all}, "mm", false);
+    CHECK(mesh.polygons.ambiguity == 0);
+    CHECK(mesh.vertices[0].y == 2 * large);
+    CHECK(mesh.delta <= 1e-14 * large + 0x1p-1050);
+  }
+}
+
 TEST_CASE("a matrix that is none, or not one for a shape, is refused by its reason") {
   CHECK(refusal("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1").empty());
   CHECK(refusal("1 0 0 0 0 1 0 0 0 0 1 0").find("12 numbers; expected sixteen") !=

@@ -14,7 +14,7 @@ def las(format=3, minor=2, numbers=NUMBERS, scale=(1e-3,) * 3, offset=(0, 0, 0),
         header=None, old_count=None, withheld=(), bits=0, major=1):
     """A file; what is not given is as it should be."""
     record = BYTES[min(format, 10)] if record is None else record
-    size = {3: 235, 4: 375}.get(minor, 227)
+    size = {3: 235, 4: 375, 5: 393}.get(minor, 227)
     count = len(numbers) if count is None else count
     old = (count if format < 6 or minor < 4 else 0) if old_count is None else old_count
     head = bytearray(size)
@@ -22,7 +22,7 @@ def las(format=3, minor=2, numbers=NUMBERS, scale=(1e-3,) * 3, offset=(0, 0, 0),
     struct.pack_into('<HII', head, 94, size if header is None else header, size if begin is None else begin, 0)
     struct.pack_into('<HI', head, 105, record, old)
     struct.pack_into('<6d', head, 131, *scale, *offset)
-    if minor == 4:
+    if size >= 375:
         struct.pack_into('<Q', head, 247, count)
     body = bytearray()
     for i, xyz in enumerate(numbers):
@@ -35,7 +35,7 @@ def las(format=3, minor=2, numbers=NUMBERS, scale=(1e-3,) * 3, offset=(0, 0, 0),
 
 def read(cases):
     for format in range(11):
-        for minor in (2, 3, 4):
+        for minor in range(6):
             cases.accept_points(f'format_{format}_of_1_{minor}', 4, las(format, minor))
     cases.accept_points('wider_records', 4, las(record=47))
     cases.accept_points('offset', 4, las(offset=(4e6, -5e5, 100)))
@@ -50,8 +50,8 @@ def read(cases):
 
 
 def refused(cases):
-    for version in ((1, 0), (1, 1), (1, 5), (2, 4), (0, 0)):
-        cases.refuse_points('version_%d_%d' % version, las(minor=version[1], major=version[0]), 'expected LAS 1.2, 1.3 or 1.4')
+    for version in ((1, 6), (2, 4), (0, 0)):
+        cases.refuse_points('version_%d_%d' % version, las(minor=version[1], major=version[0]), 'expected LAS 1.0 to 1.5')
     for bits in (0x40, 0x80, 0xc0):
         cases.refuse_points(f'compressed_{bits}', las(bits=bits), 'compressed as LAZ')
     cases.refuse_points('format_11', las(format=11, record=80), 'point data format 11')
@@ -60,6 +60,9 @@ def refused(cases):
     cases.refuse_points('too_many', las(count=5), 'a file that holds them')
     cases.refuse_points('far_too_many', las(7, 4, count=2 ** 63), 'a file that holds them')
     cases.refuse_points('too_many_in_32_bits', las(count=2 ** 32 - 1))
+    cases.refuse_points('too_few', las(count=2), 'byte 107: 2 points announced, 4 records')
+    cases.refuse_points('too_few_of_1_4', las(6, 4, count=2), 'byte 247: 2 points announced, 4 records')
+    cases.refuse_points('count_not_written', las(count=0), '0 points announced, 4 records')
     cases.refuse_points('none', las(numbers=[]), 'no point')
     cases.refuse_points('all_withheld', las(withheld=range(4)), 'no point that is not withheld')
     cases.refuse_points('two_counts', las(2, 4, old_count=3), 'one count, or 0 here')
