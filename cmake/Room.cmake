@@ -5,6 +5,13 @@ if(VKH_SANITIZE)
   target_compile_options(vkh_cold INTERFACE -O0)
 endif()
 
+if(NOT VKH_UNITY)  # what most files of the host include, and what costs most
+  vkh_precompiled(vkh_room_headers "vkh_flags;vkh_hardening;glm::glm;nlohmann_json::nlohmann_json"
+    <algorithm> <array> <cmath> <filesystem> <functional> <glm/geometric.hpp> <limits> <map> <nlohmann/json.hpp> <optional>
+    <span> <string> <vector>)
+  target_compile_features(vkh_room_headers PRIVATE cxx_std_20)
+endif()
+
 # vkh_room(NAME [COLD] [WITHOUT FILE] [GENERATED FILE...] [DEFINITIONS NAME...] [LIBRARIES TARGET...]): the sources of the
 # folder, and GENERATED ones, as the OBJECT library vkh_NAME. Files for one operating system end in
 # _posix.cpp or _windows.cpp.
@@ -28,4 +35,5 @@ function(vkh_room name)
   endif()
   target_compile_definitions(vkh_${name} PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX> ${room_DEFINITIONS})
   vkh_unity(vkh_${name})
+  vkh_precompile(vkh_${name} vkh_room_headers)
 endfunction()
