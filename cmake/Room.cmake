@@ -5,10 +5,9 @@ if(VKH_SANITIZE)
   target_compile_options(vkh_cold INTERFACE -O0)
 endif()
 
-if(NOT VKH_UNITY)  # what most files of the host include, and what costs most
-  vkh_precompiled(vkh_room_headers "vkh_flags;vkh_hardening;glm::glm;nlohmann_json::nlohmann_json"
-    <algorithm> <array> <cmath> <filesystem> <functional> <glm/geometric.hpp> <limits> <map> <nlohmann/json.hpp> <optional>
-    <span> <string> <vector>)
+if(NOT VKH_UNITY)  # what most files of the host include: with more in it, it costs more than it saves (docs/log/build.md)
+  vkh_precompiled(vkh_room_headers "vkh_flags;vkh_hardening;glm::glm"
+    <algorithm> <array> <cmath> <functional> <glm/geometric.hpp> <limits> <map> <memory> <optional> <span> <string> <vector>)
   target_compile_features(vkh_room_headers PRIVATE cxx_std_20)
 endif()
 
