@@ -1,4 +1,4 @@
-// Builds with VKH_SHADER_FOLDER take a kernel's SPIR-V from the folder that the environment variable
+// Builds with VKH_DEBUGGING take a kernel's SPIR-V from the folder that the environment variable
 // VKH_SHADER_DIR names, so that whoever changes a kernel links nothing (docs/debugging.md).
 #pragma once
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#ifdef VKH_SHADER_FOLDER
+#ifdef VKH_DEBUGGING
 #include "host/gpu/shader_folder.h"
 #endif
 #include "host/gpu/vulkan_loader.h"
@@ -19,7 +19,7 @@ VulkanApi load_vulkan() {
       reinterpret_cast<PFN_vkGetInstanceProcAddr>(vulkan_loader_function("vkGetInstanceProcAddr"));
   if (vk.GetInstanceProcAddr == nullptr)
     throw DeviceError(std::string("no Vulkan loader (") + kVulkanLoader + ")");
-#ifdef VKH_SHADER_FOLDER
+#ifdef VKH_DEBUGGING
   vk.GetInstanceProcAddr = with_shader_folder(vk.GetInstanceProcAddr);
 #endif
 #define VKH_LOAD(name) \
