@@ -312,7 +312,7 @@ std::vector<double> read_scalar(const Header& header, const Layout& layout, size
 }
 
 template <class Body>
-Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scanner) {
+ReadMesh read_body(const Header& header, const MeshSource& source, TextScanner& scanner) {
   const Layout layout = layout_of(header, source);
   FileMeshBuilder builder(source);
   builder.reserve(layout.vertex->count, layout.face_count());
@@ -326,7 +326,7 @@ Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scan
   return std::move(builder).finish(place);
 }
 
-Mesh read_ply_whole(const MeshSource& source) {
+ReadMesh read_ply_whole(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name);
   const Header header = read_header(scanner, source);
   switch (header.encoding) {
@@ -339,7 +339,7 @@ Mesh read_ply_whole(const MeshSource& source) {
   }
 }
 
-Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin) {
+ReadMesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin) {
   const Layout layout = layout_of(header, source);
   FileMeshBuilder(source).check_room(layout.vertex->count, layout.face_count());
   uint64_t row_count = 0;
@@ -355,7 +355,7 @@ Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64
   return FileMeshBuilder::joined(source, std::move(builders)).finish("byte 0");
 }
 
-Mesh read_ply_by_blocks(const MeshSource& source) {
+ReadMesh read_ply_by_blocks(const MeshSource& source) {
   Windows windows(source);
   Windows::Window window(windows);
   const auto head = window.read(0, std::min(kTextHeader, source.size()));
@@ -369,7 +369,7 @@ Mesh read_ply_by_blocks(const MeshSource& source) {
 
 }  // namespace
 
-Mesh parse_ply(const MeshSource& source) {
+ReadMesh parse_ply(const MeshSource& source) {
   return by_blocks_or_whole(source, read_ply_by_blocks, read_ply_whole);
 }
 

@@ -115,7 +115,7 @@ void note_heading(const XyzRows& rows, FileMeshBuilder& builder) {
     builder.notes.push_back(note_of(NoteCode::kUnread, "a heading before the points ignored"));
 }
 
-Mesh read_xyz_whole(const MeshSource& source) {
+ReadMesh read_xyz_whole(const MeshSource& source) {
   FileMeshBuilder builder(source);
   XyzReader reader(source, whole_text(source), builder);
   reader.read();
@@ -124,7 +124,7 @@ Mesh read_xyz_whole(const MeshSource& source) {
   return std::move(builder).finish(reader.place());
 }
 
-Mesh read_xyz_by_blocks(const MeshSource& source) {
+ReadMesh read_xyz_by_blocks(const MeshSource& source) {
   TextBlocks blocks(source, 0, Cut::kLine);
   std::vector<FileMeshBuilder> builders = blocks.builders();
   std::vector<XyzRows> read(blocks.count());
@@ -147,7 +147,7 @@ Mesh read_xyz_by_blocks(const MeshSource& source) {
 
 }  // namespace
 
-Mesh parse_xyz(const MeshSource& given) {
+ReadMesh parse_xyz(const MeshSource& given) {
   MeshSource source = given;
   source.limits.points = true;
   return by_blocks_or_whole(source, read_xyz_by_blocks, read_xyz_whole);
