@@ -5,6 +5,12 @@ if(VKH_SANITIZE)
   target_compile_options(vkh_cold INTERFACE -O0)
 endif()
 
+if(NOT VKH_UNITY)  # what most files of the host include: with more in it, it costs more than it saves (docs/log/build.md)
+  vkh_precompiled(vkh_room_headers "vkh_flags;vkh_hardening;glm::glm"
+    <algorithm> <array> <cmath> <functional> <glm/geometric.hpp> <limits> <map> <memory> <optional> <span> <string> <vector>)
+  target_compile_features(vkh_room_headers PRIVATE cxx_std_20)
+endif()
+
 # vkh_room(NAME [COLD] [WITHOUT FILE] [GENERATED FILE...] [DEFINITIONS NAME...] [LIBRARIES TARGET...]): the sources of the
 # folder, and GENERATED ones, as the OBJECT library vkh_NAME. Files for one operating system end in
 # _posix.cpp or _windows.cpp.
@@ -28,4 +34,5 @@ function(vkh_room name)
   endif()
   target_compile_definitions(vkh_${name} PRIVATE VK_NO_PROTOTYPES $<$<BOOL:${WIN32}>:NOMINMAX> ${room_DEFINITIONS})
   vkh_unity(vkh_${name})
+  vkh_precompile(vkh_${name} vkh_room_headers)
 endfunction()

@@ -42,10 +42,11 @@ namespace vkh {
 // The function for large buffers that are given by address (engine/by_address.h).
 #define VKH_ADDRESS_FUNCTIONS(X) X(GetBufferDeviceAddress)
 
-// Labels for captures; null where the caller has not enabled VK_EXT_debug_utils.
+// Labels and names for captures; null where the caller has not enabled VK_EXT_debug_utils.
 #define VKH_OPTIONAL_FUNCTIONS(X) \
   X(CmdBeginDebugUtilsLabelEXT)   \
-  X(CmdEndDebugUtilsLabelEXT)
+  X(CmdEndDebugUtilsLabelEXT)     \
+  X(SetDebugUtilsObjectNameEXT)
 
 // The engine links no prototypes: the loader belongs to the caller.
 struct DeviceFunctions {

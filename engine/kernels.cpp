@@ -17,6 +17,7 @@ namespace vkh {
 namespace {
 
 struct KernelSource {
+  const char* name;
   std::span<const uint32_t> words, edits;
   std::span<const Binding> bindings;
   uint32_t push_bytes;
@@ -37,13 +38,35 @@ constexpr uint32_t push_size<NoPush>() {
 std::array<KernelSource, kKernelCount> kernel_sources(const Limits& limits) {
   const bool for_cpu = limits.cpu && !limits.wide;
   return {{
-#define VKH_SOURCE(K)                                                                         \
-  {for_cpu ? k::K::words_for_cpu() : k::K::words(),                                           \
-   for_cpu ? k::K::edits_for_cpu() : k::K::edits(), k::K::kBindings, push_size<k::K::Push>(), \
+#define VKH_SOURCE(K)                               \
+  {k::K::kName,                                     \
+   for_cpu ? k::K::words_for_cpu() : k::K::words(), \
+   for_cpu ? k::K::edits_for_cpu() : k::K::edits(), \
+   k::K::kBindings,                                 \
+   push_size<k::K::Push>(),                         \
    k::K::kByAddress},
       VKH_KERNELS(VKH_SOURCE)
 #undef VKH_SOURCE
   }};
+}
+
+// Captures and messages of the validation layer call the object so. A name that cannot be given is
+// no error.
+template <class Handle>
+void name_object(const VkhContext_T& c, VkObjectType type, Handle handle, const char* name) {
+  if (c.vk.SetDebugUtilsObjectNameEXT == nullptr) return;
+  VkDebugUtilsObjectNameInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
+  info.objectType = type;
+  info.objectHandle = (uint64_t)handle;  // a pointer, or a number where pointers have 32 bits
+  info.pObjectName = name;
+  c.vk.SetDebugUtilsObjectNameEXT(c.device, &info);
+}
+
+void name_kernel(const VkhContext_T& c, const char* name, const KernelPipeline& kernel) {
+  name_object(c, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, kernel.set_layout, name);
+  name_object(c, VK_OBJECT_TYPE_PIPELINE_LAYOUT, kernel.layout, name);
+  name_object(c, VK_OBJECT_TYPE_PIPELINE, kernel.pipeline, name);
 }
 
 VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, KernelPipeline& out) {
@@ -92,6 +115,7 @@ VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPi
   VkShaderModule shader = VK_NULL_HANDLE;
   VkResult result = c.vk.CreateShaderModule(c.device, &module_info, nullptr, &shader);
   if (result != VK_SUCCESS) return result;
+  name_object(c, VK_OBJECT_TYPE_SHADER_MODULE, shader, source.name);  // a message about SPIR-V
 
   // kSwitches and kWide (base/switches.glsl).
   const std::array<uint32_t, 2> values{c.limits.switches, c.limits.wide ? VK_TRUE : VK_FALSE};
@@ -113,8 +137,10 @@ VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPi
 // Runs on a thread of its own, which no exception may leave.
 VkResult create_kernel(const VkhContext_T& c, const KernelSource& source, VkPipelineCache cache,
                        KernelPipeline& out) try {
-  const VkResult result = create_layouts(c, source, out);
-  return result == VK_SUCCESS ? create_pipeline(c, source, cache, out) : result;
+  VkResult result = create_layouts(c, source, out);
+  if (result == VK_SUCCESS) result = create_pipeline(c, source, cache, out);
+  if (result == VK_SUCCESS) name_kernel(c, source.name, out);
+  return result;
 } catch (...) {
   return VK_ERROR_OUT_OF_HOST_MEMORY;
 }

@@ -166,7 +166,7 @@ typedef uint32_t VkhContextFlags; /* VkhContextFlagBits that are on */
 
 /* The caller's device. Functions are found through getInstanceProcAddr, never linked: you may have
  * opened the loader yourself, or it may be a layer. `device` may be null before it is created.
- * Labels for captures are recorded where VK_EXT_debug_utils is enabled. */
+ * Where VK_EXT_debug_utils is enabled, kernels have names and stages have labels in captures. */
 typedef struct VkhDeviceInfo {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr;
   VkInstance instance; /* Vulkan 1.2 or later */

@@ -9,8 +9,7 @@ set(VKH_TESTS_ALONE
   "/aligned_glm_test")    # macros of GLM
 list(JOIN VKH_TESTS_ALONE "|" VKH_TESTS_ALONE)
 
-# Their time is the compiler's (docs/log/build.md). Only GCC reads the precompiled headers, and not
-# if each file is checked by itself.
+# Their time is the compiler's (docs/log/build.md).
 add_library(vkh_test_flags INTERFACE)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_BUILD_TYPE STREQUAL "Release")
   target_compile_options(vkh_test_flags INTERFACE -Og)
@@ -20,8 +19,13 @@ endif()
 if(VKH_SANITIZE)
   target_compile_options(vkh_test_flags INTERFACE -O0 -fno-sanitize=null,vptr,alignment,object-size)
 endif()
-set(VKH_TEST_HEADERS <doctest/doctest.h> <glm/glm.hpp> <nlohmann/json.hpp> <algorithm> <array> <filesystem> <fstream>
-                     <functional> <map> <memory> <optional> <random> <span> <sstream> <string> <vector>)
+vkh_precompiled(vkh_test_headers "vkh_test_support;vkh_test_flags"
+  <doctest/doctest.h> <glm/glm.hpp> <nlohmann/json.hpp> <algorithm> <array> <filesystem> <fstream> <functional> <map>
+  <memory> <optional> <random> <span> <sstream> <string> <vector>)
+if(TARGET vkh_test_headers)  # as programs are compiled
+  set_target_properties(vkh_test_headers PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  target_compile_options(vkh_test_headers PRIVATE ${CMAKE_CXX_COMPILE_OPTIONS_PIE})
+endif()
 
 # vkh_test_program(SOURCE OUT): sets OUT to the program that has the source's cases; makes it with its first source.
 function(vkh_test_program source out)
@@ -42,20 +46,5 @@ function(vkh_test_program source out)
   endif()
   add_executable(${program} ${source})
   target_link_libraries(${program} PRIVATE vkh_test_support vkh_test_flags)
-  vkh_precompile(${program})
-endfunction()
-
-# The first program makes the precompiled header, and the others read it.
-function(vkh_precompile program)
-  if(NOT VKH_UNITY OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    return()
-  endif()
-  target_compile_options(${program} PRIVATE -fpch-preprocess)  # for ccache
-  get_property(first GLOBAL PROPERTY VKH_PRECOMPILED)
-  if(first)
-    target_precompile_headers(${program} REUSE_FROM ${first})
-  else()
-    target_precompile_headers(${program} PRIVATE ${VKH_TEST_HEADERS})
-    set_property(GLOBAL PROPERTY VKH_PRECOMPILED ${program})
-  endif()
+  vkh_precompile(${program} vkh_test_headers)
 endfunction()

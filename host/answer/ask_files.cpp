@@ -36,7 +36,7 @@ struct SharedState {
   KnownAnswer known;
 
   /// Takes the meshes once they are read: then units and a first bound are known.
-  void read(const MeshPair& pair, double ms) {
+  void read(const ReadPair& pair, double ms) {
     Answer answer = known.answer();
     const double farthest = take_meshes(question, pair.a, pair.b, answer);
     answer.waits.read = ms;
@@ -77,7 +77,12 @@ Observer observer_of(SharedState& at) {
 /// Reads both files at the same time. Throws what read_mesh throws, A's error before B's. Shows the
 /// progress, and ends with Interrupted when it is to stop. After a bad A the call does not wait for
 /// B, whose threads go on and keep `at`.
-MeshPair read_pair(const std::shared_ptr<SharedState>& at) {
+ReadPair built_in_pair() {
+  MeshPair pair = default_pair();
+  return {std::move(pair.a), std::move(pair.b)};
+}
+
+ReadPair read_pair(const std::shared_ptr<SharedState>& at) {
   constexpr uint64_t kWorthwhile = 100'000'000;  // about a second on one core
   uint64_t bytes = 0;
   const std::string &file_a = at->question.file_a, &file_b = at->question.file_b;
@@ -98,7 +103,7 @@ MeshPair read_pair(const std::shared_ptr<SharedState>& at) {
   };
   auto b =
       begin_now([file_b, limits = limits_of(true)] { return read_mesh(path_of(file_b), limits); });
-  MeshPair pair{read_mesh(path_of(file_a), limits_of(false)), {}};
+  ReadPair pair{read_mesh(path_of(file_a), limits_of(false)), {}};
   pair.b = b.get();
   place_a(at->question, pair.a, pair.b);
   return pair;
@@ -193,7 +198,7 @@ Answered work(const std::shared_ptr<SharedState>& at) {
   auto opening = begin_opening(question);
   const auto start = Clock::now();
   Answered done;
-  done.pair = question.file_a.empty() ? default_pair() : read_pair(at);
+  done.pair = question.file_a.empty() ? built_in_pair() : read_pair(at);
   const double read_ms = ms_since(start);
   if (!question.align) at->read(done.pair, read_ms);
   hashes.begin_beneath();

@@ -5,16 +5,20 @@
 
 #include "host/answer/session.h"
 #include "host/answer/stop.h"
-#include "host/mesh/mesh_pair.h"
 #include "vkhausdorff/answer.h"
+#include "vkhausdorff/mesh_io.h"
 #include "vkhausdorff/question.h"
 
 namespace vkh {
 
+struct ReadPair {
+  ReadMesh a, b;
+};
+
 /// An answer, with the objects that are destroyed only after it is printed.
 struct Answered {
   Answer answer;
-  MeshPair pair;
+  ReadPair pair;
   Session session;
 };
 

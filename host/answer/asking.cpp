@@ -25,8 +25,8 @@ Question of_meshes(Question question) {
 }  // namespace
 
 struct Asking::State {
-  State(Question asked, std::shared_ptr<const Mesh> mesh_a, std::shared_ptr<const Mesh> mesh_b,
-        std::span<Solver* const> on)
+  State(Question asked, std::shared_ptr<const ReadMesh> mesh_a,
+        std::shared_ptr<const ReadMesh> mesh_b, std::span<Solver* const> on)
       : question(of_meshes(std::move(asked))),
         a(std::move(mesh_a)),
         b(std::move(mesh_b)),
@@ -63,8 +63,8 @@ struct Asking::State {
   void run(const std::stop_token& callers);
 
   const Question question;
-  std::shared_ptr<const Mesh> a;
-  const std::shared_ptr<const Mesh> b;
+  std::shared_ptr<const ReadMesh> a;
+  const std::shared_ptr<const ReadMesh> b;
   const std::vector<Solver*> solvers;
   const Clock::time_point start = Clock::now();
   KnownAnswer known;
@@ -78,7 +78,7 @@ void Asking::State::work() {
   const FloatEnvironment ours;
   const Observer heard = observer();
   if (is_placed(question, *a, *b)) {
-    auto moved = std::make_shared<Mesh>(*a);
+    auto moved = std::make_shared<ReadMesh>(*a);
     place_a(question, *moved, *b);
     fit_a(question, *solvers.front(), heard, {*moved, *b});
     a = std::move(moved);
@@ -104,8 +104,9 @@ void Asking::State::run(const std::stop_token& callers) {
   }
 }
 
-Asking::Asking(Question question, std::shared_ptr<const Mesh> a, std::shared_ptr<const Mesh> b,
-               std::span<Solver* const> solvers, std::stop_token stop)
+Asking::Asking(Question question, std::shared_ptr<const ReadMesh> a,
+               std::shared_ptr<const ReadMesh> b, std::span<Solver* const> solvers,
+               std::stop_token stop)
     : state_(std::make_unique<State>(std::move(question), std::move(a), std::move(b), solvers)) {
   state_->thread =
       std::thread([state = state_.get(), callers = std::move(stop)] { state->run(callers); });

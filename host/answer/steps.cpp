@@ -36,13 +36,22 @@ std::string utc_now() {
   return text;
 }
 
-Input input_of(const Mesh& mesh) {
+/// What the polygons leave open may have grown since the file was read: place().
+std::vector<Note> notes_on(const ReadMesh& mesh) {
+  std::vector<Note> notes = mesh.notes;
+  for (Note& note : notes) {
+    if (note.code == NoteCode::kAmbiguity) note = note_on_ambiguity(mesh.polygons);
+  }
+  return notes;
+}
+
+Input input_of(const ReadMesh& mesh) {
   return {.path = mesh.name,
           .is_read = true,
           .are_points = mesh.are_points,
           .counts = mesh.counts,
           .place = {mesh.delta, mesh.unit},
-          .notes = mesh.notes};
+          .notes = notes_on(mesh)};
 }
 
 /// The unit of a mesh: its file's own, else the one in the request; empty if it is unknown. A unit
@@ -355,7 +364,7 @@ void fit_a(const Question& question, Solver& solver, const Observer& observer,
   a.placed->fit = found.fit;
 }
 
-double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer) {
+double take_meshes(const Question& question, const ReadMesh& a, const ReadMesh& b, Answer& answer) {
   return take_meshes(question, {a, shape_of(a)}, {b, shape_of(b)}, answer);
 }
 

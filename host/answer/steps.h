@@ -8,6 +8,7 @@
 
 #include "host/answer/pair_notes.h"
 #include "vkhausdorff/answer.h"
+#include "vkhausdorff/mesh_io.h"
 #include "vkhausdorff/question.h"
 #include "vkhausdorff/solver.h"
 #include "vkhausdorff/stream.h"
@@ -44,7 +45,7 @@ struct FitMeshes {
 
 /// A mesh and its shape, which a caller keeps for a mesh of many pairs.
 struct ShapedMesh {
-  const Mesh& mesh;
+  const ReadMesh& mesh;
   MeshShape shape;
 };
 
@@ -70,7 +71,7 @@ void fit_a(const Question& question, Solver& solver, const Observer& observer,
 double take_meshes(const Question& question, const ShapedMesh& a, const ShapedMesh& b,
                    Answer& answer);
 /// Does the same, and finds the shapes.
-double take_meshes(const Question& question, const Mesh& a, const Mesh& b, Answer& answer);
+double take_meshes(const Question& question, const ReadMesh& a, const ReadMesh& b, Answer& answer);
 
 /// The ends of a picture's colours, in the files' unit; a 0 has no unit. Throws UsageError that
 /// names --range for ends that are reversed, or cannot be converted.

@@ -88,7 +88,7 @@ class SimplifyCommand {
   ProgressLine line_;
   SimplifyPlaces places_;
   Session session_;
-  Mesh a_;
+  ReadMesh a_;
   SimplifyAnswer answer_;
 };
 

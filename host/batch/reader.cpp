@@ -184,13 +184,13 @@ NamedEntry EntryReader::name(const Entry& entry) {
   return named;
 }
 
-std::shared_ptr<Mesh> EntryReader::mesh_of(const std::string& file,
-                                           const ReadLimits& limits) const {
+std::shared_ptr<ReadMesh> EntryReader::mesh_of(const std::string& file,
+                                               const ReadLimits& limits) const {
   constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones are read one per thread
   ReadLimits of_this = limits;
   of_this.keep_going = keep_going_;
   of_this.threads = size_of(file) < kLarge ? 1 : 0;
-  return std::make_shared<Mesh>(read_mesh(path_of(file), of_this));
+  return std::make_shared<ReadMesh>(read_mesh(path_of(file), of_this));
 }
 
 // Keeps those used last, so that a list that goes back and forth between two B's reads each once.
@@ -223,7 +223,7 @@ EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
   }
   if (theirs.valid()) return theirs.get();
   try {
-    const std::shared_ptr<const Mesh> mesh = mesh_of(file, limits);
+    const std::shared_ptr<const ReadMesh> mesh = mesh_of(file, limits);
     SharedMesh made{mesh, shape_of(*mesh)};
     mine.set_value(made);
     return made;
@@ -235,7 +235,7 @@ EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
 
 EntryReader::SharedMesh EntryReader::b_of(const Question& question, bool is_shared) {
   if (is_shared) return kept_mesh_of(question.file_b, question.limits_of(true));
-  const std::shared_ptr<const Mesh> mesh = mesh_of(question.file_b, question.limits_of(true));
+  const std::shared_ptr<const ReadMesh> mesh = mesh_of(question.file_b, question.limits_of(true));
   return {mesh, shape_of(*mesh)};
 }
 
@@ -243,7 +243,8 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
   const auto start = Clock::now();
   EntryMeshes meshes;
   meshes.shares_b = shared_.count(entry.question.file_b) > 0;
-  const std::shared_ptr<Mesh> a = mesh_of(entry.question.file_a, entry.question.limits_of(false));
+  const std::shared_ptr<ReadMesh> a =
+      mesh_of(entry.question.file_a, entry.question.limits_of(false));
   const SharedMesh b = b_of(entry.question, meshes.shares_b);
   meshes.b = b.mesh;
   place_a(entry.question, *a, *meshes.b);
@@ -258,7 +259,7 @@ EntryMeshes EntryReader::read(NamedEntry& entry) {
 void EntryReader::fit(Solver& solver, const Observer& observer, const PreparedMesh* prepared_b,
                       EntryMeshes& meshes, NamedEntry& entry) {
   const auto start = Clock::now();
-  auto moved = std::make_shared<Mesh>(*meshes.a);
+  auto moved = std::make_shared<ReadMesh>(*meshes.a);
   fit_a(entry.question, solver, observer, {*moved, *meshes.b, prepared_b});
   meshes.a = std::move(moved);
   const double read_ms = entry.known.waits.read;

@@ -29,7 +29,7 @@ struct NamedEntry {
 };
 
 struct EntryMeshes {
-  std::shared_ptr<const Mesh> a, b;
+  std::shared_ptr<const ReadMesh> a, b;
   MeshShape shape_b;
   bool shares_b = false;
 };
@@ -58,7 +58,7 @@ class EntryReader {
  private:
   /// A mesh of several pairs, and its shape, which is found once.
   struct SharedMesh {
-    std::shared_ptr<const Mesh> mesh;
+    std::shared_ptr<const ReadMesh> mesh;
     MeshShape shape;
   };
   struct Kept {
@@ -67,7 +67,7 @@ class EntryReader {
   };
   static void take(const EntryMeshes& meshes, NamedEntry& entry);
   InputHashes hashes_of(const std::string& file, bool is_shared);
-  std::shared_ptr<Mesh> mesh_of(const std::string& file, const ReadLimits& limits) const;
+  std::shared_ptr<ReadMesh> mesh_of(const std::string& file, const ReadLimits& limits) const;
   SharedMesh b_of(const Question& question, bool is_shared);
   SharedMesh kept_mesh_of(const std::string& file, const ReadLimits& limits);
   void drop_old();

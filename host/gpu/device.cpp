@@ -19,6 +19,13 @@ namespace {
 constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
+// The engine names its objects and stages where VK_EXT_debug_utils is enabled.
+#ifdef VKH_DEBUGGING
+constexpr bool kNamesObjects = true;
+#else
+constexpr bool kNamesObjects = false;
+#endif
+
 VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data,
@@ -83,7 +90,7 @@ VkInstance make_instance(const VulkanApi& vk, const void* next, bool validation)
   app.pApplicationName = "vkhausdorff";
   app.apiVersion = kApiVersion;
   std::vector<const char*> extensions;
-  if (validation) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (validation || kNamesObjects) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   VkInstanceCreateInfo info{};
   if (offers_portability(vk)) {
     extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);

@@ -5,6 +5,9 @@
 #include <string>
 #include <utility>
 
+#ifdef VKH_DEBUGGING
+#include "host/gpu/shader_folder.h"
+#endif
 #include "host/gpu/vulkan_loader.h"
 #include "vkhausdorff/error.h"
 
@@ -16,6 +19,9 @@ VulkanApi load_vulkan() {
       reinterpret_cast<PFN_vkGetInstanceProcAddr>(vulkan_loader_function("vkGetInstanceProcAddr"));
   if (vk.GetInstanceProcAddr == nullptr)
     throw DeviceError(std::string("no Vulkan loader (") + kVulkanLoader + ")");
+#ifdef VKH_DEBUGGING
+  vk.GetInstanceProcAddr = with_shader_folder(vk.GetInstanceProcAddr);
+#endif
 #define VKH_LOAD(name) \
   vk.name = reinterpret_cast<PFN_vk##name>(vk.GetInstanceProcAddr(nullptr, "vk" #name));
   VKH_GLOBAL_API(VKH_LOAD)

@@ -206,8 +206,7 @@ Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<g
   Mesh mesh{.name = std::move(name),
             .vertices = std::move(vertices),
             .faces = std::move(faces),
-            .counts = {},
-            .notes = {}};
+            .counts = {}};
   check_sizes(mesh);
   check_indices(mesh, pool);
   drop_unreferenced(mesh, pool);
@@ -220,11 +219,7 @@ Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<g
 
 Mesh make_points(std::string name, std::vector<glm::dvec3> points, const ThreadPool& pool) {
   const FloatEnvironment ours;
-  Mesh mesh{.name = std::move(name),
-            .vertices = std::move(points),
-            .faces = {},
-            .counts = {},
-            .notes = {}};
+  Mesh mesh{.name = std::move(name), .vertices = std::move(points), .faces = {}, .counts = {}};
   const size_t count = mesh.vertices.size();
   if (count == 0) reject(mesh.name, "vertex 0", "there is no point", "at least one point");
   if (count >= UINT32_MAX)

@@ -20,6 +20,7 @@
 #include "host/base/decimal.h"
 #include "host/mesh/exact_sum.h"
 #include "host/mesh/make_mesh.h"
+#include "vkhausdorff/note.h"
 
 namespace vkh {
 namespace {

@@ -129,7 +129,7 @@ void Flow::take(Running& running) const {
 
 // Runs on a worker's thread, before the pair's run.
 void Flow::fit(Solver& solver, const PreparedMesh* b, Running& running, StreamPair& pair) {
-  auto moved = std::make_shared<Mesh>(*running.a);
+  auto moved = std::make_shared<ReadMesh>(*running.a);
   fit_a(asked_.question, solver, {.goes_on = [this] { return !is_over(); }},
         {*moved, *running.b, b});
   running.a = std::move(moved);

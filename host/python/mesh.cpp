@@ -56,7 +56,7 @@ int fault_of(const std::string& file) {
   return access(file.c_str(), R_OK) == 0 ? 0 : errno;
 }
 
-Mesh read_file(const std::string& file, ReadLimits limits) {
+ReadMesh read_file(const std::string& file, ReadLimits limits) {
   constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones gain little from more threads
   limits.threads = file_size(file) < kLarge ? 1 : 0;
   try {
@@ -77,7 +77,7 @@ MeshPointer read_now(const std::string& file, ReadLimits limits = {}) {
     limits.keep_going = [&] { return goes_on.load(); };
     auto reading = std::async(std::launch::async, [&] {
       const FloatEnvironment ours;
-      return std::make_shared<const Mesh>(read_file(file, limits));
+      return std::make_shared<const ReadMesh>(read_file(file, limits));
     });
     try {
       while (reading.wait_for(kStep) == std::future_status::timeout) hear_signals();
@@ -261,7 +261,7 @@ Polygons polygons_from(const py::tuple& state) {
   return p;
 }
 
-const Mesh& mesh_in(const py::object& self) { return *made<FileMesh>(self, "Mesh").mesh; }
+const ReadMesh& mesh_in(const py::object& self) { return *made<FileMesh>(self, "Mesh").mesh; }
 
 py::dict file_counts_of(const MeshCounts& c) {
   using py::literals::operator""_a;
@@ -275,7 +275,7 @@ py::object path_in(const Mesh& mesh) {
       mesh.name.data(), static_cast<py::ssize_t>(mesh.name.size())));
 }
 
-py::list notes_state(const Mesh& mesh) {
+py::list notes_state(const ReadMesh& mesh) {
   py::list states;
   for (const Note& n : mesh.notes)
     states.append(py::make_tuple(std::string(code_name(n.code)), n.text, n.value, n.unit, n.face));
@@ -296,7 +296,7 @@ std::vector<Note> notes_from(const py::list& states) {
 }
 
 py::tuple state_of(const py::object& self) {
-  const Mesh& mesh = mesh_in(self);
+  const ReadMesh& mesh = mesh_in(self);
   return py::make_tuple(py::bytes(mesh.name), self.attr("vertices"), self.attr("faces"), mesh.delta,
                         mesh.unit, notes_state(mesh), mesh.counts.unreferenced,
                         mesh.counts.polygons, runs_of(mesh.file_faces),
@@ -307,8 +307,8 @@ FileMesh mesh_from_state(const py::tuple& state) {
   const Call call;
   if (state.size() != 12) throw py::value_error("this pickle is not of a vkhausdorff.Mesh");
   const bool are_points = py::cast<bool>(state[11]);
-  Mesh mesh = are_points ? make_points("a pickled Mesh", points_from(state[1]))
-                         : mesh_from("a pickled Mesh", state[1], state[2]);
+  ReadMesh mesh = are_points ? make_points("a pickled Mesh", points_from(state[1]))
+                             : mesh_from("a pickled Mesh", state[1], state[2]);
   mesh.name = py::cast<std::string>(state[0]);
   mesh.delta = py::cast<double>(state[3]);
   mesh.unit = py::cast<std::string>(state[4]);
@@ -318,7 +318,7 @@ FileMesh mesh_from_state(const py::tuple& state) {
   mesh.file_faces = file_faces_from(state[8], mesh.faces.size());
   mesh.polygons = polygons_from(state[9]);
   mesh.has_all_bodies = py::cast<bool>(state[10]);
-  return {std::make_shared<const Mesh>(std::move(mesh))};
+  return {std::make_shared<const ReadMesh>(std::move(mesh))};
 }
 
 // The array of points of an object that has .vertices or .points, or the object.
@@ -334,7 +334,7 @@ py::object points_array(const char* argument, const py::object& object) {
 MeshPointer points_of(const char* argument, const std::string& name, const py::object& object) {
   std::vector<DVec3> points = points_from(points_array(argument, object));
   const WithoutGil outside;
-  return std::make_shared<const Mesh>(make_points(name, std::move(points)));
+  return std::make_shared<const ReadMesh>(make_points(name, std::move(points)));
 }
 
 void refuse_faces(const char* argument, const Mesh& mesh) {
@@ -363,7 +363,7 @@ FileMesh surface_of(const py::object& vertices, const py::object& faces, double 
   const Call call;
   Mesh mesh = mesh_from("a mask", vertices, faces);
   mesh.delta = delta;
-  return {std::make_shared<const Mesh>(std::move(mesh))};
+  return {std::make_shared<const ReadMesh>(std::move(mesh))};
 }
 
 template <class Get>
@@ -409,7 +409,7 @@ void define_mesh(py::module_& m) {
                              of_mesh([](const Mesh& mesh) { return mesh.are_points; }),
                              "whether it is points alone: each is a face whose three corners it is")
       .def_property_readonly("notes",
-                             of_mesh([](const Mesh& mesh) { return lines_of(mesh.notes); }),
+                             of_mesh([](const ReadMesh& mesh) { return lines_of(mesh.notes); }),
                              "a line each, for people: what was left out, fanned or rounded")
       .def("__repr__", of_mesh([](const Mesh& mesh) {
              return "<vkhausdorff.Mesh " + py::cast<std::string>(py::repr(path_in(mesh))) + ", " +
@@ -501,17 +501,17 @@ ReadLimits limits_of(const Arguments& given) {
 MeshPointer made_mesh(MeshGiven given, ReadLimits limits) {
   if (given.mesh != nullptr) return given.mesh;
   if (!given.file.empty())
-    return std::make_shared<const Mesh>(read_file(given.file, std::move(limits)));
+    return std::make_shared<const ReadMesh>(read_file(given.file, std::move(limits)));
   RawMesh& raw = given.arrays;
   if (given.are_points)
-    return std::make_shared<const Mesh>(make_points(raw.name, std::move(raw.vertices)));
-  return std::make_shared<const Mesh>(
+    return std::make_shared<const ReadMesh>(make_points(raw.name, std::move(raw.vertices)));
+  return std::make_shared<const ReadMesh>(
       make_mesh(raw.name, std::move(raw.vertices), std::move(raw.faces)));
 }
 
 MeshPointer placed(const Question& question, const MeshPointer& a, const Mesh& b) {
   if (a->placed || question.align || !is_placed(question, *a, b)) return a;
-  auto moved = std::make_shared<Mesh>(*a);
+  auto moved = std::make_shared<ReadMesh>(*a);
   place_a(question, *moved, b);
   return moved;
 }
@@ -531,7 +531,7 @@ MeshPointer mesh_of(const char* argument, const std::string& name, const py::obj
   if (is_path(object)) return read_now(file_from(argument, object), std::move(limits));
   if (limits.points) return points_of(argument, name, object);
   const py::tuple arrays = checked_arrays(argument, object);
-  return std::make_shared<const Mesh>(mesh_from(name, arrays[0], arrays[1]));
+  return std::make_shared<const ReadMesh>(mesh_from(name, arrays[0], arrays[1]));
 }
 
 namespace {
@@ -606,7 +606,7 @@ MeshPointer mesh_of(const std::string& name, const py::object& vertices, const p
   if (are_points) return mesh_of(is_a ? "va" : "vb", name, vertices, ReadLimits{.points = true});
   if (faces.is_none() && py::isinstance<FileMesh>(vertices))
     return made<FileMesh>(vertices, "Mesh").mesh;
-  return std::make_shared<const Mesh>(mesh_from(name, vertices, faces));
+  return std::make_shared<const ReadMesh>(mesh_from(name, vertices, faces));
 }
 
 KeptMesh kept(MeshPointer mesh) {

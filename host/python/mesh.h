@@ -11,12 +11,13 @@
 #include "host/answer/pair_notes.h"
 #include "host/python/arguments.h"
 #include "host/python/arrays.h"
+#include "vkhausdorff/mesh_io.h"
 #include "vkhausdorff/question.h"
 #include "vkhausdorff/read_limits.h"
 
 namespace vkh::python {
 
-using MeshPointer = std::shared_ptr<const Mesh>;
+using MeshPointer = std::shared_ptr<const ReadMesh>;
 
 /// A mesh of many pairs, with its shape.
 struct KeptMesh {

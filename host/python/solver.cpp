@@ -181,7 +181,7 @@ void write_certificate(Given& given, const Answer& answer, Result& result) {
 /// Lays A onto B on the device, where that is asked for.
 void fit_on(Session& session, Session::Key key, Given& given) {
   if (!given.question.align) return;
-  auto moved = std::make_shared<Mesh>(*given.a);
+  auto moved = std::make_shared<ReadMesh>(*given.a);
   FloatEnvironment* environment = nullptr;
   const Observer observer{.goes_on = [&environment] {
     environment->outside(hear_signals);

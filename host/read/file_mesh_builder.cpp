@@ -278,7 +278,7 @@ void FileMeshBuilder::refuse_no_face(const std::string& place) const {
          "at least one face: a distance between no surfaces is undefined");
 }
 
-Mesh FileMeshBuilder::finish_points(const std::string& place) && {
+ReadMesh FileMeshBuilder::finish_points(const std::string& place) && {
   if (const uint64_t faces = faces_.size() + short_faces_; faces > 0)
     reject(name_, place, counted(faces, "face") + " in a file of points", kPointsAlone);
   if (vertices_.empty())
@@ -287,12 +287,10 @@ Mesh FileMeshBuilder::finish_points(const std::string& place) && {
     reject(name_, place, "too many points", "fewer than 2^32 - 1");
   check_room(vertices_.size(), vertices_.size());
   const ThreadPool pool = pool_of({.name = name_, .bytes = {}, .limits = limits_});
-  Mesh mesh = make_points(name_, std::move(vertices_), pool);
-  mesh.notes = std::move(notes);
-  return mesh;
+  return {make_points(name_, std::move(vertices_), pool), std::move(notes)};
 }
 
-Mesh FileMeshBuilder::finish(const std::string& place, Positions positions) && {
+ReadMesh FileMeshBuilder::finish(const std::string& place, Positions positions) && {
   if (limits_.points) return std::move(*this).finish_points(place);
   if (faces_.empty()) refuse_no_face(place);
   if (faces_.size() + short_faces_ >= UINT32_MAX)
@@ -308,14 +306,12 @@ Mesh FileMeshBuilder::finish(const std::string& place, Positions positions) && {
   if (polygons_ > 0) note_polygons(polygons);
   mesh.polygons = std::move(polygons);
   if (limits_.any_triangulation) mesh.delta = mesh.polygons.ambiguity;
-  mesh.notes = std::move(notes);
   if (short_faces_ > 0) {
-    mesh.notes.push_back(
-        note_of(NoteCode::kShortFaces,
-                counted(short_faces_, "face") + " of fewer than three corners ignored",
-                {static_cast<double>(short_faces_), "faces"}));
+    notes.push_back(note_of(NoteCode::kShortFaces,
+                            counted(short_faces_, "face") + " of fewer than three corners ignored",
+                            {static_cast<double>(short_faces_), "faces"}));
   }
-  return mesh;
+  return {std::move(mesh), std::move(notes)};
 }
 
 }  // namespace vkh

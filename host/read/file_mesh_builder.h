@@ -8,6 +8,7 @@
 
 #include "host/mesh/make_mesh.h"
 #include "host/read/source.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh {
 
@@ -64,7 +65,7 @@ class FileMeshBuilder {
     file_faces_.append(faces, first);
   }
   /// `place` is where the file ended, for the error if no face was there.
-  Mesh finish(const std::string& place, Positions positions = Positions::kAny) &&;
+  ReadMesh finish(const std::string& place, Positions positions = Positions::kAny) &&;
 
  private:
   /// Makes room before so many more are added.
@@ -91,7 +92,7 @@ class FileMeshBuilder {
   bool is_measurable(std::span<const glm::uvec3> faces) const;
   void note_polygons(const Polygons& polygons);
   void refuse_odd(const Triangulated& found) const;
-  Mesh finish_points(const std::string& place) &&;
+  ReadMesh finish_points(const std::string& place) &&;
   [[noreturn]] void refuse_no_face(const std::string& place) const;
   [[noreturn]] void refuse_size(uint64_t vertex_count, uint64_t face_count) const;
 

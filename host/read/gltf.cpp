@@ -26,7 +26,7 @@ class Reader {
         builder_(source),
         noted_(model.meshes.size()) {}
 
-  Mesh read() {
+  ReadMesh read() {
     scene_.for_each([&](const Instance& instance) { count(instance); });
     if (faces_ >= UINT32_MAX) {
       reject(source_.name, "byte 0", std::to_string(faces_) + " faces, each mesh at each node",
@@ -36,7 +36,7 @@ class Reader {
     slots_.resize(most_positions_);
     scene_.for_each([&](const Instance& instance) { add(instance); });
     add_notes();
-    Mesh mesh = std::move(builder_).finish("byte " + std::to_string(source_.bytes.size()));
+    ReadMesh mesh = std::move(builder_).finish("byte " + std::to_string(source_.bytes.size()));
     mesh.delta = delta_;
     mesh.unit = "m";
     return mesh;
@@ -292,11 +292,11 @@ std::string json_of_glb(const MeshSource& source) {
   return std::string(Windows::Window(windows).read(kHeaders, kHeaders + size));
 }
 
-Mesh read_whole(const MeshSource& source) {
+ReadMesh read_whole(const MeshSource& source) {
   const bool is_glb = source.bytes.starts_with(kMagic);
   const Chunks chunks = is_glb ? chunks_of(source) : Chunks{.json = source.bytes, .binary = {}};
   const Model model = read_model(source, chunks.json);
-  Mesh mesh = Reader(source, model, chunks.binary).read();
+  ReadMesh mesh = Reader(source, model, chunks.binary).read();
   if (chunks.bytes_behind > 0) {
     mesh.notes.push_back(note_of(NoteCode::kUnread, counted(chunks.bytes_behind, "byte") +
                                                         " behind the GLB's own length ignored"));
@@ -307,7 +307,7 @@ Mesh read_whole(const MeshSource& source) {
 }  // namespace
 }  // namespace gltf
 
-Mesh parse_gltf(const MeshSource& source) { return in_memory(source, gltf::read_whole); }
+ReadMesh parse_gltf(const MeshSource& source) { return in_memory(source, gltf::read_whole); }
 
 std::vector<FileBeneath> files_of_gltf(const MeshSource& source) {
   const bool is_glb = head_of(source, 4) == gltf::kMagic;

@@ -269,7 +269,7 @@ LasPoints read_points(const MeshSource& source, const LasHeader& header, const T
   return joined(std::move(points), blocks, rows);
 }
 
-Mesh read_las(const MeshSource& source) {
+ReadMesh read_las(const MeshSource& source) {
   const LasHeader header = read_las_header(source);
   FileMeshBuilder(source).check_room(header.count, header.count);
   const ThreadPool pool = pool_of(source);
@@ -278,7 +278,7 @@ Mesh read_las(const MeshSource& source) {
   if (read.points.empty())
     refuse(source, 107, all.withheld > 0 ? "no point that is not withheld" : "no point",
            "at least one point");
-  Mesh mesh = make_points(source.name, std::move(read.points), pool);
+  ReadMesh mesh = make_points(source.name, std::move(read.points), pool);
   mesh.file_faces = all.file_faces;
   mesh.delta = delta_of(header, all.extremes);
   const bool keeps = source.limits.bodies == Bodies::kAll;
@@ -294,6 +294,6 @@ Mesh read_las(const MeshSource& source) {
 }  // namespace
 }  // namespace las
 
-Mesh parse_las(const MeshSource& source) { return las::read_las(source); }
+ReadMesh parse_las(const MeshSource& source) { return las::read_las(source); }
 
 }  // namespace vkh

@@ -60,7 +60,7 @@ std::string extension_of(const std::string& name) {
   return lower_case(name_of(path_of(name).extension()));
 }
 
-using Parse = Mesh (*)(const MeshSource&);
+using Parse = ReadMesh (*)(const MeshSource&);
 
 Parse parser_by_extension(const std::string& extension) {
   if (extension == ".obj") return parse_obj;
@@ -206,10 +206,10 @@ std::string folder_beside(const std::filesystem::path& path) {
 
 }  // namespace
 
-Mesh parse_mesh(const MeshSource& file) {
+ReadMesh parse_mesh(const MeshSource& file) {
   const FloatEnvironment ours;
   const RecognisedFile recognised = recognise_format(file);
-  Mesh mesh = recognised.parse(recognised.source);
+  ReadMesh mesh = recognised.parse(recognised.source);
   mesh.has_all_bodies = file.limits.bodies == Bodies::kAll;
   return mesh;
 }
@@ -225,7 +225,7 @@ bool has_points_extension(const std::filesystem::path& path) {
   return std::find(kKnown.begin(), kKnown.end(), extension) != kKnown.end();
 }
 
-Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
+ReadMesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits) {
   const std::string name = name_of(path);
   const InputFile file(path);
   const std::string folder = folder_beside(path);

@@ -299,7 +299,7 @@ void note_ignored(const Ignored& lines, std::vector<Note>& notes) {
   }
 }
 
-Mesh read_obj_whole(const MeshSource& source) {
+ReadMesh read_obj_whole(const MeshSource& source) {
   FileMeshBuilder builder(source);
   ObjReader reader(source, whole_text(source), builder);
   reader.read();
@@ -322,7 +322,7 @@ void place_relative(const ObjBlock& block, size_t vertices_before, FileMeshBuild
     builder.corner(number) += static_cast<uint32_t>(vertices_before);
 }
 
-Mesh read_obj_by_blocks(const MeshSource& source) {
+ReadMesh read_obj_by_blocks(const MeshSource& source) {
   const ThreadPool pool = pool_of(source);
   TextBlocks blocks(source, 0, Cut::kUncontinued);
   std::vector<FileMeshBuilder> builders = blocks.builders();
@@ -350,7 +350,7 @@ Mesh read_obj_by_blocks(const MeshSource& source) {
 
 }  // namespace
 
-Mesh parse_obj(const MeshSource& source) {
+ReadMesh parse_obj(const MeshSource& source) {
   return by_blocks_or_whole(source, read_obj_by_blocks, read_obj_whole);
 }
 

@@ -172,7 +172,7 @@ class RowReader {
   uint64_t words_of_first_ = 0;
 };
 
-Mesh read_off_whole(const MeshSource& source) {
+ReadMesh read_off_whole(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name, '#');
   FileMeshBuilder builder(source);
   const Counts counts = read_off_header(scanner, source.size());
@@ -186,7 +186,7 @@ Mesh read_off_whole(const MeshSource& source) {
   return std::move(builder).finish(place);
 }
 
-Mesh read_off_by_blocks(const MeshSource& source) {
+ReadMesh read_off_by_blocks(const MeshSource& source) {
   Windows windows(source);
   Windows::Window window(windows);
   const auto head = window.read(0, std::min(kTextHeader, source.size()));
@@ -210,7 +210,7 @@ Mesh read_off_by_blocks(const MeshSource& source) {
 
 }  // namespace
 
-Mesh parse_off(const MeshSource& source) {
+ReadMesh parse_off(const MeshSource& source) {
   return by_blocks_or_whole(source, read_off_by_blocks, read_off_whole);
 }
 

@@ -235,9 +235,6 @@ void place(Mesh& mesh, const MeshTransform& placement, const std::string& unit, 
   check_finite(mesh, unit);
   mesh.delta = add_up(placed.delta, delta);
   if (mesh.polygons.ambiguity > 0) mesh.polygons.ambiguity *= growth;
-  for (Note& note : mesh.notes) {
-    if (note.code == NoteCode::kAmbiguity) note = note_on_ambiguity(mesh.polygons);
-  }
   mesh.unit = unit;
   mesh.placed = std::move(placed);
 }

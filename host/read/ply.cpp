@@ -393,7 +393,7 @@ void check_not_numbered(const Layout& layout, const FileMeshBuilder& builder) {
 }
 
 template <class Body>
-Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scanner) {
+ReadMesh read_body(const Header& header, const MeshSource& source, TextScanner& scanner) {
   const Layout layout = layout_of(header, source);
   FileMeshBuilder builder(source);
   builder.reserve(layout.vertex->count, layout.face_count());
@@ -417,7 +417,7 @@ Mesh read_body(const Header& header, const MeshSource& source, TextScanner& scan
   return std::move(builder).finish(place);
 }
 
-Mesh read_ply_whole(const MeshSource& source) {
+ReadMesh read_ply_whole(const MeshSource& source) {
   TextScanner scanner(source.bytes, source.name);
   const Header header = read_header(scanner, source);
   switch (header.encoding) {
@@ -430,7 +430,7 @@ Mesh read_ply_whole(const MeshSource& source) {
   }
 }
 
-Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin) {
+ReadMesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin) {
   const Layout layout = layout_of(header, source);
   FileMeshBuilder(source).check_room(layout.vertex->count, layout.face_count());
   uint64_t row_count = 0;
@@ -446,7 +446,7 @@ Mesh read_ascii_by_blocks(const Header& header, const MeshSource& source, uint64
   return FileMeshBuilder::joined(source, std::move(builders)).finish("byte 0");
 }
 
-Mesh read_ply_by_blocks(const MeshSource& source) {
+ReadMesh read_ply_by_blocks(const MeshSource& source) {
   Windows windows(source);
   Windows::Window window(windows);
   const auto head = window.read(0, std::min(kTextHeader, source.size()));
@@ -461,7 +461,7 @@ Mesh read_ply_by_blocks(const MeshSource& source) {
 
 }  // namespace
 
-Mesh parse_ply(const MeshSource& source) {
+ReadMesh parse_ply(const MeshSource& source) {
   return by_blocks_or_whole(source, read_ply_by_blocks, read_ply_whole);
 }
 

@@ -68,7 +68,7 @@ class BlockReader {
         windows_(source),
         block_bytes_(block_bytes_of(source)) {}
 
-  Mesh read(uint64_t body_begin) {
+  ReadMesh read(uint64_t body_begin) {
     FileMeshBuilder(source_).check_room(layout_.vertex->count, layout_.face_count());
     uint64_t at = body_begin;
     const Element* last = nullptr;
@@ -359,7 +359,8 @@ class BlockReader {
 
 }  // namespace
 
-Mesh read_binary_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin) {
+ReadMesh read_binary_by_blocks(const Header& header, const MeshSource& source,
+                               uint64_t body_begin) {
   const Layout layout = layout_of(header, source);
   if (header.encoding == Encoding::kBig)
     return BlockReader<std::endian::big>(header, layout, source).read(body_begin);

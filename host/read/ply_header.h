@@ -102,6 +102,6 @@ void check_rest(std::string_view rest, uint64_t at, const Element* last, FileMes
 
 /// Reads a binary body on several threads. Throws InputError if anything is wrong, and if vertices
 /// have lists.
-Mesh read_binary_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin);
+ReadMesh read_binary_by_blocks(const Header& header, const MeshSource& source, uint64_t body_begin);
 
 }  // namespace vkh::ply

@@ -21,15 +21,15 @@ class TextScanner;
 
 /// Finds the format and calls its reader. All of these throw InputError and nothing else but
 /// std::bad_alloc, whatever the bytes are, and Interrupted if keep_going returns false.
-Mesh parse_mesh(const MeshSource& source);
-Mesh parse_obj(const MeshSource& source);
-Mesh parse_stl(const MeshSource& source);
-Mesh parse_ply(const MeshSource& source);
-Mesh parse_off(const MeshSource& source);
-Mesh parse_gltf(const MeshSource& source);  ///< GLB, too
-Mesh parse_3mf(const MeshSource& source);
-Mesh parse_las(const MeshSource& source);  ///< points, whatever limits.points says
-Mesh parse_xyz(const MeshSource& source);  ///< the same; PTS, too
+ReadMesh parse_mesh(const MeshSource& source);
+ReadMesh parse_obj(const MeshSource& source);
+ReadMesh parse_stl(const MeshSource& source);
+ReadMesh parse_ply(const MeshSource& source);
+ReadMesh parse_off(const MeshSource& source);
+ReadMesh parse_gltf(const MeshSource& source);  ///< GLB, too
+ReadMesh parse_3mf(const MeshSource& source);
+ReadMesh parse_las(const MeshSource& source);  ///< points, whatever limits.points says
+ReadMesh parse_xyz(const MeshSource& source);  ///< the same; PTS, too
 
 /// The files that parse_gltf reads besides: see files_beneath. Throws what parse_gltf throws for a
 /// document that is refused before its numbers are looked at.

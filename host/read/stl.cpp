@@ -168,7 +168,7 @@ bool has_attribute_bytes(std::string_view bytes) {
   return at == bytes.size() && count <= UINT32_MAX / 3;
 }
 
-Mesh read_binary(const MeshSource& source) {
+ReadMesh read_binary(const MeshSource& source) {
   FileMeshBuilder builder(source);
   const bool has_attributes = has_attribute_bytes(source.bytes);
   const uint64_t count = has_attributes ? announced_triangles(source.bytes) : checked_count(source);
@@ -210,7 +210,7 @@ FileMeshBuilder merged(const MeshSource& source, const ThreadPool& pool, Array<C
   return {source, std::move(mesh.vertices), std::move(mesh.faces)};
 }
 
-Mesh read_binary_by_blocks(const MeshSource& source) {
+ReadMesh read_binary_by_blocks(const MeshSource& source) {
   constexpr uint64_t kMostRest = uint64_t{1} << 20;
   const uint64_t count = checked_count(source), end = kHeaderBytes + count * kTriangleBytes;
   const uint64_t per_block = std::max<uint64_t>(1, block_bytes_of(source) / kTriangleBytes);
@@ -418,7 +418,7 @@ void note_beside(const Beside& beside, std::vector<Note>& notes) {
                                                    std::to_string(beside.first_remark)));
 }
 
-Mesh read_ascii(const MeshSource& source) {
+ReadMesh read_ascii(const MeshSource& source) {
   FileMeshBuilder builder(source);
   std::string place;
   {
@@ -495,7 +495,7 @@ Array<glm::dvec3> joined(const ThreadPool& pool, std::vector<KeepingUse> blocks)
   return all;
 }
 
-Mesh read_ascii_by_blocks(const MeshSource& source) {
+ReadMesh read_ascii_by_blocks(const MeshSource& source) {
   const ThreadPool pool = pool_of(source);
   TextBlocks blocks(source, 0, Cut::kFacet);
   std::vector<KeepingUse> read(blocks.count());
@@ -516,7 +516,7 @@ std::string_view without_end_marks(std::string_view text) {
   return text;
 }
 
-Mesh read_stl_whole(const MeshSource& source) {
+ReadMesh read_stl_whole(const MeshSource& source) {
   MeshSource text = source;
   text.bytes = without_end_marks(source.bytes);
   if (!is_exact_binary_stl(source.bytes, source.size()) && is_ascii(source, text.bytes))
@@ -524,7 +524,7 @@ Mesh read_stl_whole(const MeshSource& source) {
   return read_binary(source);
 }
 
-Mesh read_stl_by_blocks(const MeshSource& source) {
+ReadMesh read_stl_by_blocks(const MeshSource& source) {
   const std::string head = head_of(source, 4096);
   if (is_exact_binary_stl(head, source.size()) || !begins_as_stl(head))
     return read_binary_by_blocks(source);
@@ -541,7 +541,7 @@ bool is_exact_binary_stl(std::string_view head, uint64_t size) {
          size == kHeaderBytes + announced_triangles(head) * kTriangleBytes;
 }
 
-Mesh parse_stl(const MeshSource& source) {
+ReadMesh parse_stl(const MeshSource& source) {
   return by_blocks_or_whole(source, read_stl_by_blocks, read_stl_whole);
 }
 

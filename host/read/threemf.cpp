@@ -25,7 +25,7 @@ class Builder {
   Builder(const MeshSource& source, Model& model, const Volumes& volumes)
       : source_(source), model_(model), volumes_(volumes), builder_(source) {}
 
-  Mesh build() {
+  ReadMesh build() {
     count_faces();
     if (build_.face_count >= UINT32_MAX) {
       reject(source_.name, "byte 0",
@@ -42,7 +42,7 @@ class Builder {
     const std::string unit = model_.unit;
     slots_ = {};
     model_ = {};  // before the mesh is made of the built shapes
-    Mesh mesh = std::move(builder_).finish("byte " + std::to_string(source_.bytes.size()));
+    ReadMesh mesh = std::move(builder_).finish("byte " + std::to_string(source_.bytes.size()));
     mesh.delta = delta_;
     mesh.unit = unit;
     return mesh;
@@ -283,7 +283,7 @@ class Builder {
   double delta_ = 0;
 };
 
-Mesh read_whole(const MeshSource& source) {
+ReadMesh read_whole(const MeshSource& source) {
   Package package(source);
   Model model = read_model(source, package);
   const Volumes volumes = read_volumes(source, package);
@@ -293,11 +293,11 @@ Mesh read_whole(const MeshSource& source) {
 }  // namespace
 }  // namespace threemf
 
-Mesh parse_3mf(const MeshSource& source) { return in_memory(source, threemf::read_whole); }
+ReadMesh parse_3mf(const MeshSource& source) { return in_memory(source, threemf::read_whole); }
 
 }  // namespace vkh
 #else
-vkh::Mesh vkh::parse_3mf(const MeshSource& source) {
+vkh::ReadMesh vkh::parse_3mf(const MeshSource& source) {
   reject(source.name, "byte 0", "a 3MF file, and this program was built without what reads it",
          "a build with libzip-dev and libexpat1-dev");
 }

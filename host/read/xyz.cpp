@@ -330,7 +330,7 @@ void refuse_zero_byte(const MeshSource& source, std::string_view text) {
     reject(source.name, "byte " + std::to_string(zero), "a zero byte", "text, as XYZ is");
 }
 
-Mesh read_xyz_whole(const MeshSource& source) {
+ReadMesh read_xyz_whole(const MeshSource& source) {
   refuse_zero_byte(source, source.bytes);
   TextScanner scanner = whole_text(source).scanner(source.name);
   const XyzHead head = read_head(scanner);
@@ -353,7 +353,7 @@ Mesh read_xyz_whole(const MeshSource& source) {
   return std::move(builder).finish(scanner.place());
 }
 
-Mesh read_xyz_by_blocks(const MeshSource& source) {
+ReadMesh read_xyz_by_blocks(const MeshSource& source) {
   Windows windows(source);
   Windows::Window window(windows);
   const std::string_view text = window.read(0, std::min(kTextHeader, source.size()));
@@ -384,7 +384,7 @@ Mesh read_xyz_by_blocks(const MeshSource& source) {
 
 }  // namespace
 
-Mesh parse_xyz(const MeshSource& given) {
+ReadMesh parse_xyz(const MeshSource& given) {
   MeshSource source = given;
   source.limits.points = true;
   return by_blocks_or_whole(source, read_xyz_by_blocks, read_xyz_whole);

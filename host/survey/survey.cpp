@@ -15,6 +15,7 @@
 #include "host/survey/pooled.h"
 #include "host/survey/signed_figures.h"
 #include "vkhausdorff/error.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 namespace {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <mutex>
 #include <regex>
 #include <set>
@@ -99,22 +100,42 @@ TEST_CASE("every result has its name") {
 
 namespace {
 
+// The device, whose function of that name is `ours`; one at a time. `theirs` is the driver's.
+struct Replaced {
+  static inline PFN_vkGetInstanceProcAddr get_instance = nullptr;
+  static inline PFN_vkGetDeviceProcAddr get_device = nullptr;
+  static inline const char* name = nullptr;
+  static inline PFN_vkVoidFunction ours = nullptr;
+
+  static PFN_vkVoidFunction VKAPI_CALL of_device(VkDevice device, const char* asked) {
+    return std::strcmp(asked, name) == 0 ? ours : get_device(device, asked);
+  }
+  static PFN_vkVoidFunction VKAPI_CALL of_instance(VkInstance instance, const char* asked) {
+    return std::strcmp(asked, "vkGetDeviceProcAddr") == 0
+               ? reinterpret_cast<PFN_vkVoidFunction>(of_device)
+               : get_instance(instance, asked);
+  }
+  static PFN_vkVoidFunction replace(VkhDeviceInfo& device, const char* function,
+                                    PFN_vkVoidFunction by) {
+    get_instance = device.getInstanceProcAddr;
+    get_device = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
+        get_instance(device.instance, "vkGetDeviceProcAddr"));
+    device.getInstanceProcAddr = of_instance;
+    name = function;
+    ours = by;
+    return get_device(device.device, function);
+  }
+};
+
 // The number of threads that created pipelines, if they are the engine's own.
 size_t threads_of_context(uint32_t most) {
   VkhContextCreateInfo info = create_info(0, VKH_DEVICE_KIND_NARROW);
   info.threads = most;
   static std::mutex mutex;
   static std::set<std::thread::id> seen;
-  static PFN_vkGetDeviceProcAddr get_device = nullptr;
-  static PFN_vkGetInstanceProcAddr get_instance = nullptr;
   static PFN_vkCreateComputePipelines create = nullptr;
   seen.clear();
-  get_instance = info.device.getInstanceProcAddr;
-  get_device = reinterpret_cast<PFN_vkGetDeviceProcAddr>(
-      get_instance(info.device.instance, "vkGetDeviceProcAddr"));
-  create = reinterpret_cast<PFN_vkCreateComputePipelines>(
-      get_device(info.device.device, "vkCreateComputePipelines"));
-  static const PFN_vkCreateComputePipelines counting =
+  const PFN_vkCreateComputePipelines counting =
       [](VkDevice device, VkPipelineCache cache, uint32_t count,
          const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* callbacks,
          VkPipeline* pipelines) {
@@ -124,23 +145,33 @@ size_t threads_of_context(uint32_t most) {
         }
         return create(device, cache, count, infos, callbacks, pipelines);
       };
-  static const PFN_vkGetDeviceProcAddr device_functions =
-      [](VkDevice device, const char* name) -> PFN_vkVoidFunction {
-    if (std::strcmp(name, "vkCreateComputePipelines") == 0)
-      return reinterpret_cast<PFN_vkVoidFunction>(counting);
-    return get_device(device, name);
-  };
-  info.device.getInstanceProcAddr = [](VkInstance instance,
-                                       const char* name) -> PFN_vkVoidFunction {
-    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0)
-      return reinterpret_cast<PFN_vkVoidFunction>(device_functions);
-    return get_instance(instance, name);
-  };
+  create = reinterpret_cast<PFN_vkCreateComputePipelines>(Replaced::replace(
+      info.device, "vkCreateComputePipelines", reinterpret_cast<PFN_vkVoidFunction>(counting)));
   VkhContext context = nullptr;
   REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
   vkhDestroyContext(context);
   if (most == 1) CHECK(seen == std::set{std::this_thread::get_id()});
   return seen.size();
+}
+
+// Names by type, which a context gave its objects.
+std::map<VkObjectType, std::set<std::string>> names_of_context() {
+  VkhContextCreateInfo info = create_info(0, VKH_DEVICE_KIND_NARROW);
+  info.threads = 1;
+  static std::map<VkObjectType, std::set<std::string>> names;
+  names.clear();
+  const PFN_vkSetDebugUtilsObjectNameEXT noting = [](VkDevice,
+                                                     const VkDebugUtilsObjectNameInfoEXT* named) {
+    CHECK(named->objectHandle != 0);
+    names[named->objectType].insert(named->pObjectName);
+    return VK_SUCCESS;
+  };
+  Replaced::replace(info.device, "vkSetDebugUtilsObjectNameEXT",
+                    reinterpret_cast<PFN_vkVoidFunction>(noting));
+  VkhContext context = nullptr;
+  REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
+  vkhDestroyContext(context);
+  return names;
 }
 
 // Runs the work backwards on the calling thread, and counts it.
@@ -150,6 +181,17 @@ void run_here(void* user, uint32_t count, void (*work)(void*, uint32_t), void* d
 }
 
 }  // namespace
+
+TEST_CASE("kernels have their names in captures") {
+  const auto names = names_of_context();
+  for (const VkObjectType type :
+       {VK_OBJECT_TYPE_SHADER_MODULE, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
+        VK_OBJECT_TYPE_PIPELINE_LAYOUT, VK_OBJECT_TYPE_PIPELINE}) {
+    REQUIRE(names.contains(type));
+    CHECK(names.at(type).contains("wave_bound"));
+    CHECK(names.at(type) == names.at(VK_OBJECT_TYPE_PIPELINE));
+  }
+}
 
 TEST_CASE("threads that create pipelines can be limited, forbidden or given") {
   CHECK(threads_of_context(1) == 1);

@@ -20,7 +20,7 @@
 namespace {
 
 using vkh::InputError;
-using vkh::Mesh;
+using vkh::ReadMesh;
 using vkh::test::check_error_line;
 
 /// One case of the corpus.
@@ -50,7 +50,7 @@ void check_case(const Case& file) {
   const bool points = file.expected[0] == 'P' || file.expected[0] == 'Q';
   std::string outcome = points ? "Q" : "R", said;
   try {
-    const Mesh mesh = vkh::read_mesh(file.path, {.points = points});
+    const ReadMesh mesh = vkh::read_mesh(file.path, {.points = points});
     CHECK(mesh.are_points == points);
     outcome = (points ? "P" : "A") + std::to_string(mesh.faces.size());
     for (const std::string& note : lines_of(mesh.notes)) said += note + "\n";
@@ -100,7 +100,7 @@ void check_bad_file(const std::filesystem::path& path, const std::vector<std::st
       choice != kAcceptedByChoice.end() ? choice->second : row[6].starts_with("ACCEPT");
   CAPTURE(file);
   try {
-    const Mesh mesh = vkh::read_mesh(path);
+    const ReadMesh mesh = vkh::read_mesh(path);
     REQUIRE_MESSAGE(accepted, "accepted with " << mesh.faces.size() << " faces");
     CHECK(mesh.counts.faces == mesh.faces.size());
     if (!row[4].empty()) CHECK(mesh.counts.faces == std::stoull(row[4]));

@@ -106,9 +106,9 @@ inline Document triangle_document() {
   return document;
 }
 
-inline Mesh parse(const std::string& bytes, const ReadLimits& limits = {}) {
+inline ReadMesh parse(const std::string& bytes, const ReadLimits& limits = {}) {
   return parse_mesh({.name = "test.gltf", .bytes = bytes, .limits = limits});
 }
-inline Mesh parse(const Document& document) { return parse(document.text()); }
+inline ReadMesh parse(const Document& document) { return parse(document.text()); }
 
 }  // namespace vkh::test

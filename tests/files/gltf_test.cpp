@@ -53,7 +53,7 @@ void check_refused(const Document& document, const std::string& says) {
   CHECK(said.find(says) != std::string::npos);
 }
 
-bool has_note(const Mesh& mesh, const std::string& says) {
+bool has_note(const ReadMesh& mesh, const std::string& says) {
   for (const std::string& note : lines_of(mesh.notes)) {
     if (note.find(says) != std::string::npos) return true;
   }
@@ -90,7 +90,7 @@ TEST_CASE("points and lines are noted, and no mesh is made of them alone") {
   document.json["meshes"][0]["primitives"].push_back(
       {{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
   document.json["meshes"][0]["primitives"].push_back({{"attributes", {{"NORMAL", 0}}}});
-  const Mesh mesh = parse(document);
+  const ReadMesh mesh = parse(document);
   CHECK(mesh.faces.size() == 1);
   CHECK(has_note(mesh, "1 primitive of points or lines ignored"));
   CHECK(has_note(mesh, "1 primitive without positions ignored"));
@@ -98,13 +98,13 @@ TEST_CASE("points and lines are noted, and no mesh is made of them alone") {
 
 TEST_CASE("a document, one with its buffer embedded, beside it, and a GLB are one mesh") {
   Document document = numbered(4, {0, 1, 2, 2, 1, 4});
-  const Mesh embedded = parse(document);
-  const Mesh glb = parse(document.glb());
+  const ReadMesh embedded = parse(document);
+  const ReadMesh glb = parse(document.glb());
   std::filesystem::create_directories(folder() / "in side");
   write_file("in side/a b.bin", document.binary + "more");
   Json json = document.json;
   json["buffers"] = {{{"byteLength", document.binary.size()}, {"uri", "in%20side/a b.bin"}}};
-  const Mesh beside = read_mesh(write_file("beside.gltf", json.dump()));
+  const ReadMesh beside = read_mesh(write_file("beside.gltf", json.dump()));
   for (const Mesh* mesh : {&glb, &beside}) {
     CHECK(mesh->vertices == embedded.vertices);
     CHECK(mesh->faces == embedded.faces);
@@ -121,7 +121,7 @@ TEST_CASE("a document, one with its buffer embedded, beside it, and a GLB are on
 
 TEST_CASE("escapes of JSON are resolved in data and in names") {
   const Document document = numbered(4, {0, 1, 2, 2, 1, 4});
-  const Mesh plain = parse(document);
+  const ReadMesh plain = parse(document);
   std::string escaped;
   bool is_value = false;  // from the data's mark to the end of its string
   const std::string text = document.text();
@@ -175,10 +175,10 @@ TEST_CASE("hidden nodes are left out with what is below them, and counted") {
                              {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}}};
   document.json["scenes"] = {{{"nodes", {0, 1, 3}}}};
   document.json["extensionsRequired"] = {"KHR_node_visibility"};
-  const Mesh mesh = parse(document);
+  const ReadMesh mesh = parse(document);
   CHECK(mesh.faces.size() == 2);
   CHECK(has_note(mesh, "bodies: left out: 1 hidden node and what is below"));
-  const Mesh all = parse(document.text(), {.bodies = Bodies::kAll});
+  const ReadMesh all = parse(document.text(), {.bodies = Bodies::kAll});
   REQUIRE(all.faces.size() == 3);
   CHECK(all.vertices[3] == glm::dvec3(9, 0, 0));
   CHECK(has_note(all, "bodies: included, though not shown: 1 hidden node and what is below"));
@@ -302,7 +302,7 @@ TEST_CASE("strided, offset and sparse accessors") {
                         {"type", "VEC3"}};
   const size_t plain = document.add_accessor(strided);
   document.add_mesh(plain, {{"mode", 5}});
-  const Mesh mesh = parse(document);
+  const ReadMesh mesh = parse(document);
   CHECK(mesh.vertices == std::vector<glm::dvec3>{{0, 1, 0}, {1, 1, 1}, {2, 1, 0}, {3, 1, 1}});
   Json sparse = strided;
   sparse["sparse"] = {
@@ -339,11 +339,11 @@ TEST_CASE("integers are exact, and normalised ones within the delta that is said
                                                  {"type", "VEC3"}});
   document.add_mesh(accessor);
   document.json["extensionsRequired"] = {"KHR_mesh_quantization"};
-  const Mesh exact = parse(document);
+  const ReadMesh exact = parse(document);
   CHECK(exact.vertices == std::vector<glm::dvec3>{{0, 1, -32768}, {32767, -32767, 0}, {-1, 0, 3}});
   CHECK(exact.delta == 0);
   document.json["accessors"][accessor]["normalized"] = true;
-  const Mesh mesh = parse(document);
+  const ReadMesh mesh = parse(document);
   CHECK(mesh.vertices[0].z == -1);  // the least, too
   CHECK(mesh.delta > 0);
   CHECK(mesh.delta < 0x1p-50);
@@ -367,7 +367,7 @@ TEST_CASE("nodes place their meshes, parents before children, and the delta boun
       {{"children", {1, 2}}, {"translation", {0.1, 0.2, 0.3}}, {"scale", {2, 3, 0.7}}},
       {{"mesh", 0}, {"matrix", {0, 0.3, 0, 0, -0.1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}},
       {{"mesh", 0}}};
-  const Mesh mesh = parse(document);
+  const ReadMesh mesh = parse(document);
   REQUIRE(mesh.faces == Faces{{0, 1, 2}, {3, 4, 5}});
   CHECK(mesh.delta > 0);
   CHECK(mesh.delta < 1e-13);
@@ -472,7 +472,7 @@ TEST_CASE("a mesh is at every node that names it, and no node twice") {
                             {{"mesh", 0}, {"rotation", {0, 0, 0.70710678, 0.70710678}}},
                             {{"mesh", 0}, {"translation", {0, 0, 1}}},
                             {{"mesh", 0}}};  // in no scene
-  const Mesh mesh = parse(document);
+  const ReadMesh mesh = parse(document);
   REQUIRE(mesh.faces.size() == 2);
   CHECK(glm::dvec3(0, 1, 0) == mesh.vertices[1]);  // a quarter turn, exactly
   CHECK(mesh.vertices[4] == glm::dvec3(1, 0, 1));

@@ -117,10 +117,10 @@ std::vector<glm::dvec3> sorted_corners(const Mesh& mesh, size_t face) {
 
 TEST_CASE("packed views are read as what was packed") {
   const Sphere from = sphere();
-  const Mesh plain = parse(document_of(from, raw(from.vertices), raw(from.indices)));
+  const ReadMesh plain = parse(document_of(from, raw(from.vertices), raw(from.indices)));
   const Document document = packed_document(from, packed_vertices(from.vertices),
                                             packed_indices(from.indices, from.vertices.size() / 4));
-  const Mesh mesh = parse(document);
+  const ReadMesh mesh = parse(document);
   REQUIRE(mesh.faces.size() == plain.faces.size());
   for (size_t f = 0; f < mesh.faces.size(); ++f)
     CHECK(sorted_corners(mesh, f) == sorted_corners(plain, f));
@@ -138,8 +138,8 @@ TEST_CASE("indices in sequence, and the exponential filter") {
   Document document = packed_document(from, packed_vertices(filtered), sequence);
   extension(document, 0)["filter"] = "EXPONENTIAL";
   extension(document, 1)["mode"] = "INDICES";
-  const Mesh mesh = parse(document);
-  const Mesh plain = parse(document_of(from, raw(from.vertices), raw(from.indices)));
+  const ReadMesh mesh = parse(document);
+  const ReadMesh plain = parse(document_of(from, raw(from.vertices), raw(from.indices)));
   CHECK(mesh.faces == plain.faces);  // a sequence keeps every corner where it was
   for (size_t v = 0; v < mesh.vertices.size(); ++v)
     CHECK(glm::distance(mesh.vertices[v], plain.vertices[v]) < 1e-3);  // 15 bits

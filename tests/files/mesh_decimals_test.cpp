@@ -11,9 +11,11 @@
 namespace {
 
 using vkh::InputError;
-using vkh::Mesh;
+using vkh::ReadMesh;
 
-Mesh parse(const std::string& bytes) { return vkh::parse_mesh({.name = "a.obj", .bytes = bytes}); }
+ReadMesh parse(const std::string& bytes) {
+  return vkh::parse_mesh({.name = "a.obj", .bytes = bytes});
+}
 
 }  // namespace
 
@@ -38,7 +40,7 @@ TEST_CASE("the same text is the same doubles in every format, whatever a PLY's f
        {as_ply("float"), as_ply("float32"), as_ply("double"), "OFF\n3 1 0\n" + table + "3 0 1 2\n",
         as_obj + "f 1 2 3\n", as_stl + "endloop\nendfacet\nendsolid\n"}) {
     CAPTURE(text);
-    const Mesh mesh = parse(text);
+    const ReadMesh mesh = parse(text);
     CHECK(mesh.vertices == expected);
     CHECK(std::signbit(mesh.vertices[0].z));
     CHECK_FALSE(std::signbit(mesh.vertices[0].y));

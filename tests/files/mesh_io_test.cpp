@@ -19,11 +19,12 @@ namespace {
 
 using vkh::InputError;
 using vkh::Mesh;
+using vkh::ReadMesh;
 using vkh::test::check_error_line;
 using Vertices = std::vector<glm::dvec3>;
 using Faces = std::vector<glm::uvec3>;
 
-Mesh parse(const std::string& bytes, const std::string& name) {
+ReadMesh parse(const std::string& bytes, const std::string& name) {
   return vkh::parse_mesh({.name = name, .bytes = bytes});
 }
 
@@ -36,7 +37,7 @@ std::string error_of(const std::string& bytes, const std::string& name, bool poi
   return "accepted";
 }
 
-bool has_note(const Mesh& mesh, const std::string& text) {
+bool has_note(const ReadMesh& mesh, const std::string& text) {
   return std::any_of(mesh.notes.begin(), mesh.notes.end(), [&](const vkh::Note& note) {
     return line_of(note).find(text) != std::string::npos;
   });
@@ -185,7 +186,7 @@ TEST_CASE("a file on disk is read whole") {
   const auto path = std::filesystem::temp_directory_path() /
                     ("vkh_mesh_io_test_" + std::to_string(std::random_device{}()) + ".ply");
   std::ofstream(path, std::ios::binary) << binary_ply<double>(sample.vertices, sample.faces, false);
-  const Mesh mesh = vkh::read_mesh(path);
+  const ReadMesh mesh = vkh::read_mesh(path);
   std::filesystem::remove(path);
   check_same(mesh, sample);
   CHECK(mesh.name == path.string());
@@ -210,7 +211,7 @@ TEST_CASE("OBJ: coordinates are correctly rounded doubles") {
   const std::string text =
       "v 0.1 1.7976931348623157e308 5e-324\n"
       "v 9007199254740993 +.5 2.\nv 1e+2 -7E-001 -0 1.0 # w\nf 1 2 3\n";
-  const Mesh mesh = parse(text, "a.obj");
+  const ReadMesh mesh = parse(text, "a.obj");
   CHECK(mesh.vertices == Vertices{{0.1, 1.7976931348623157e308, 5e-324},
                                   {9007199254740992.0, 0.5, 2},
                                   {100, -0.7, 0}});
@@ -268,7 +269,7 @@ TEST_CASE("OBJ: face forms and indices") {
 }
 
 TEST_CASE("OBJ: what is no surface is noted") {
-  const Mesh mesh = parse(
+  const ReadMesh mesh = parse(
       "mtllib gone.mtl\nusemtl none\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nl 1 2\np 1\nf\nf 1 2\n"
       "f 1 2 3 4\n",
       "a.obj");
@@ -280,7 +281,7 @@ TEST_CASE("OBJ: what is no surface is noted") {
 }
 
 TEST_CASE("PLY: types, lists and elements in any order") {
-  const Mesh mesh = parse(
+  const ReadMesh mesh = parse(
       "ply\nformat ascii 1.0\ncomment c\nelement face 2\nproperty list uint8 float32 uv\n"
       "property list ushort uint16 vertex_index\nproperty int8 flag\nelement edge 1\n"
       "property int a\nelement vertex 4\nproperty list int int around\nproperty float z\n"
@@ -334,7 +335,7 @@ TEST_CASE("PLY: headers that announce nonsense are refused") {
 TEST_CASE("STL: equal positions are one vertex, also across signed zeros") {
   const Sample sample{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0, 0, -0.0}, {0, -1, 0}},
                       {{0, 1, 2}, {1, 3, 4}}};
-  const Mesh mesh = parse(binary_stl(sample.vertices, sample.faces), "solid.stl");
+  const ReadMesh mesh = parse(binary_stl(sample.vertices, sample.faces), "solid.stl");
   CHECK(mesh.faces == Faces{{0, 1, 2}, {1, 0, 3}});
   CHECK(mesh.vertices.size() == 4);
 }
@@ -388,7 +389,7 @@ TEST_CASE("STL: attribute bytes that follow a triangle are skipped") {
     bytes.append(more, 'x');
     all += more;
   }
-  const Mesh mesh = parse(bytes, "a.stl");
+  const ReadMesh mesh = parse(bytes, "a.stl");
   check_same(mesh, sample);
   CHECK(has_note(mesh, std::to_string(all) + " attribute bytes behind triangles ignored"));
   // If the counts do not make the file's size they are something else: a colour.
@@ -487,7 +488,7 @@ TEST_CASE("a file that is not there is said to be so, without a place in it") {
 
 TEST_CASE("each note begins with its code") {
   const std::string tail = "f 1 2 3 4\nf 1 2\nl 1 2\nsurf 1\ncall x\n// x\n";
-  const Mesh mesh = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + tail, "a.obj");
+  const ReadMesh mesh = parse("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n" + tail, "a.obj");
   CHECK(mesh.notes.size() == 6);
   for (const std::string& note : lines_of(mesh.notes)) {
     CAPTURE(note);

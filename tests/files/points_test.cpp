@@ -14,6 +14,7 @@
 namespace {
 
 using vkh::Mesh;
+using vkh::ReadMesh;
 using vkh::test::Las;
 
 std::string error_of(const std::string& bytes, const std::string& name, bool points) {
@@ -57,7 +58,7 @@ TEST_CASE("a LAS point is its numbers times the scale plus the offset, within de
     las.put(131, scale);
     las.put(155, offset);
     las.put_points(numbers);
-    const Mesh mesh = vkh::parse_las({.name = "a.las", .bytes = las.bytes()});
+    const ReadMesh mesh = vkh::parse_las({.name = "a.las", .bytes = las.bytes()});
     REQUIRE(mesh.vertices.size() == numbers.size());
     REQUIRE(mesh.are_points);
     for (size_t p = 0; p < numbers.size(); ++p) {
@@ -77,13 +78,13 @@ TEST_CASE("withheld LAS points keep their numbers for those behind them") {
   las.put(131, std::array{1.0, 1.0, 1.0});
   las.put_points({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}});
   las.put(227 + 20 + 15, uint8_t{0x80});
-  const Mesh mesh = vkh::parse_las({.name = "a.las", .bytes = las.bytes()});
+  const ReadMesh mesh = vkh::parse_las({.name = "a.las", .bytes = las.bytes()});
   REQUIRE(mesh.faces.size() == 3);
   CHECK(mesh.vertices[1].x == 2);
   CHECK(mesh.file_faces.of(0) == 0);
   CHECK(mesh.file_faces.of(1) == 2);
   CHECK(mesh.file_faces.of(2) == 3);
-  const Mesh all = vkh::parse_las(
+  const ReadMesh all = vkh::parse_las(
       {.name = "a.las", .bytes = las.bytes(), .limits = {.bodies = vkh::Bodies::kAll}});
   CHECK(all.faces.size() == 4);
   CHECK(line_of(all.notes[0]) == "bodies: included, though withheld: 1 point");

@@ -34,7 +34,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 /// All facts about a mesh, or the error.
 std::string outcome_of(const MeshSource& source) {
   try {
-    const Mesh mesh = parse_mesh(source);
+    const ReadMesh mesh = parse_mesh(source);
     const auto bytes = [](const auto& values) {
       return std::string(reinterpret_cast<const char*>(values.data()),
                          values.size() * sizeof(values[0]));
@@ -268,7 +268,7 @@ TEST_CASE("each triangle has the number that its face has in the file") {
                               .threads = how.threads,
                               .block_bytes = how.block_bytes};
       bool by_blocks = false;
-      const Mesh mesh = parse_mesh(
+      const ReadMesh mesh = parse_mesh(
           {.name = file.name, .bytes = file.bytes, .limits = limits, .by_blocks = &by_blocks});
       CHECK(by_blocks);
       CHECK(mesh.file_faces.of_all(mesh.faces.size()) == numbers);
@@ -284,7 +284,7 @@ TEST_CASE("triangles alone take no map") {
     for (const size_t block : {size_t{50}, SIZE_MAX}) {
       const ReadLimits limits{
           .odd_polygons = OddPolygons::kFanned, .threads = 2, .block_bytes = block};
-      const Mesh mesh = parse_mesh({.name = file.name, .bytes = file.bytes, .limits = limits});
+      const ReadMesh mesh = parse_mesh({.name = file.name, .bytes = file.bytes, .limits = limits});
       CHECK(mesh.file_faces.are_triangles());
     }
   }
@@ -383,7 +383,7 @@ TEST_CASE("mutants give the same mesh or the same error by blocks") {
 
 TEST_CASE("limits are to the byte, whatever the blocks") {
   for (const File& file : test::all_good_files()) {
-    const Mesh mesh = parse_mesh({.name = file.name, .bytes = file.bytes, .limits = whole()});
+    const ReadMesh mesh = parse_mesh({.name = file.name, .bytes = file.bytes, .limits = whole()});
     const uint64_t bytes =
         mesh_bytes(mesh.counts.vertices + mesh.counts.unreferenced, mesh.counts.faces);
     for (const int64_t more : {-100, -13, -12, -1, 0, 1, 11, 12, 13}) {

@@ -39,7 +39,7 @@ std::vector<File> files() {
 }
 
 // A face that goes there and back is fanned.
-Mesh parse(const File& file, ReadLimits limits) {
+ReadMesh parse(const File& file, ReadLimits limits) {
   limits.odd_polygons = OddPolygons::kFanned;
   return parse_mesh({.name = file.name, .bytes = file.bytes, .limits = limits});
 }

@@ -16,7 +16,7 @@ using namespace vkh::test;
 
 namespace {
 
-Mesh parse(const std::string& bytes, const ReadLimits& limits = {}) {
+ReadMesh parse(const std::string& bytes, const ReadLimits& limits = {}) {
   return parse_mesh({.name = "test.3mf", .bytes = bytes, .limits = limits});
 }
 
@@ -37,7 +37,7 @@ void check_refused(const std::string& bytes, const std::string& says) {
   CHECK(said.find(says) != std::string::npos);
 }
 
-Mesh all_of(const std::string& bytes) { return parse(bytes, {.bodies = Bodies::kAll}); }
+ReadMesh all_of(const std::string& bytes) { return parse(bytes, {.bodies = Bodies::kAll}); }
 
 const std::string kIncluded = "bodies: included, though not printed as body: ";
 
@@ -61,7 +61,7 @@ const std::string kOne = object_of("1", kTriangleMesh);
 
 #ifdef VKH_HAS_3MF
 TEST_CASE("an object in the build, its decimals as doubles") {
-  const Mesh mesh = parse(package_of(model_of(kOne, item("1"))));
+  const ReadMesh mesh = parse(package_of(model_of(kOne, item("1"))));
   CHECK(mesh.vertices == std::vector<glm::dvec3>{{0.1, 0, 0}, {1, 0, 0}, {0, 1, 0}});
   CHECK(mesh.faces == std::vector<glm::uvec3>{{0, 1, 2}});
   CHECK(mesh.delta == 0);
@@ -101,7 +101,7 @@ TEST_CASE("items and components are placed, and the delta bounds how well") {
   const std::string turn = "0 1 0 -1 0 0 0 0 1 10 20 30";  // rows for points that stand before them
   const std::string grow = "0.3 0 0 0 0.3 0 0 0 0.3 0.1 0 0";
   const std::string two = object_of("2", components(component("1", turn) + component("1")));
-  const Mesh mesh = parse(package_of(model_of(kOne + two, item("2", grow) + item("1"))));
+  const ReadMesh mesh = parse(package_of(model_of(kOne + two, item("2", grow) + item("1"))));
   REQUIRE(mesh.faces.size() == 3);
   CHECK(mesh.vertices[6] == glm::dvec3(0.1, 0, 0));
   CHECK(mesh.delta > 0);
@@ -113,7 +113,7 @@ TEST_CASE("items and components are placed, and the delta bounds how well") {
                           z - Rational(mesh.vertices[0].z)};
   CHECK(off[0] * off[0] + off[1] * off[1] + off[2] * off[2] <=
         Rational(mesh.delta) * Rational(mesh.delta));
-  const Mesh moved = parse(package_of(model_of(kOne, item("1", "1 0 0 0 1 0 0 0 1 0 0 5"))));
+  const ReadMesh moved = parse(package_of(model_of(kOne, item("1", "1 0 0 0 1 0 0 0 1 0 0 5"))));
   CHECK(moved.vertices[1] == glm::dvec3(1, 0, 5));
 }
 
@@ -204,13 +204,13 @@ TEST_CASE("what has another shape than its triangles is refused by name") {
 
 TEST_CASE("what is no body is left out, and counted by name") {
   const std::string two = kOne + object_of("2", kTriangleMesh, "type=\"support\"");
-  const Mesh support = parse(package_of(model_of(two, item("1") + item("2"))));
+  const ReadMesh support = parse(package_of(model_of(two, item("1") + item("2"))));
   CHECK(support.faces.size() == 1);
   CHECK(lines_of(support.notes) ==
         std::vector<std::string>{"bodies: left out: 1 support object (1 face)"});
   check_refused(package_of(model_of(two, item("2"))),
                 "it has no bodies, only 1 support object (1 face)");
-  const Mesh printed = parse(package_of(model_of(
+  const ReadMesh printed = parse(package_of(model_of(
       kOne,
       item("1") + "<item objectid=\"1\" printable=\"0\" transform=\"1 0 0 0 1 0 0 0 1 9 9 9\"/>")));
   CHECK(printed.faces.size() == 1);
@@ -235,7 +235,7 @@ TEST_CASE("--bodies all measures what is no body, as it lies, and counts it by n
   const std::string two = kOne + object_of("2", kTriangleMesh, "type=\"support\"");
   const std::string away =
       "<item objectid=\"1\" printable=\"0\" transform=\"1 0 0 0 1 0 0 0 1 9 9 9\"/>";
-  const Mesh mesh = all_of(package_of(model_of(two, item("1") + item("2") + away)));
+  const ReadMesh mesh = all_of(package_of(model_of(two, item("1") + item("2") + away)));
   REQUIRE(mesh.faces.size() == 3);
   CHECK(mesh.vertices[7] == glm::dvec3(10, 9, 9));
   CHECK(
@@ -263,7 +263,7 @@ TEST_CASE("uses of what is left out take neither time nor room") {
   }
   const std::string bytes =
       package_of(model_of(objects + object_of("99", kTriangleMesh), item("99") + item("31")));
-  const Mesh mesh = parse(bytes, {.max_input_bytes = bytes.size()});
+  const ReadMesh mesh = parse(bytes, {.max_input_bytes = bytes.size()});
   CHECK(mesh.faces.size() == 1);
   CHECK(
       lines_of(mesh.notes) ==
@@ -318,7 +318,7 @@ TEST_CASE("PrusaSlicer's modifiers are no bodies, and a negative volume is refus
        std::vector<std::pair<std::string, std::string>>{{"ParameterModifier", "modifier"},
                                                         {"SupportBlocker", "support blocker"},
                                                         {"SupportEnforcer", "support enforcer"}}) {
-    const Mesh mesh = parse(type(name));
+    const ReadMesh mesh = parse(type(name));
     CHECK(mesh.faces == std::vector<glm::uvec3>{{0, 1, 2}});
     CHECK(lines_of(mesh.notes) ==
           std::vector<std::string>{"bodies: left out: 1 " + says + " (1 face)"});

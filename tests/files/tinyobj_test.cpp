@@ -132,7 +132,7 @@ std::vector<Corners> by_tinyobj(const std::string& text) {
 }
 
 std::vector<Corners> by_ours(const std::string& text) {
-  const Mesh mesh = parse_mesh({.name = "x.obj", .bytes = text});
+  const ReadMesh mesh = parse_mesh({.name = "x.obj", .bytes = text});
   std::vector<Corners> faces;
   for (size_t i = 0; i < mesh.faces.size(); ++i) {
     const size_t face = mesh.file_faces.of(i);

@@ -82,7 +82,7 @@ if wants quickstart || wants tests; then
   # On lavapipe the demo may end undecided (3).
   step quickstart "$folder/checkout" enter "$folder/checkout" bash -c 'cd /vkhausdorff && { tools/quickstart || [ $? = 3 ]; }'
   grep -q '^  interval ' "$folder/quickstart.log" || fail "quickstart printed no interval"
-  ! wants tests || step tests "$folder/checkout" enter "$folder/checkout" bash -c 'cd /vkhausdorff && tools/test'
+  ! wants tests || step tests "$folder/checkout" enter "$folder/checkout" bash -c 'cd /vkhausdorff && tools/setup --tests && tools/test'
 fi
 if wants packages; then
   use_packages "$folder/bare"

@@ -18,13 +18,13 @@ copy() {
   cp -R "$source"/{CMakeLists.txt,CMakePresets.json,LICENSE,README.md,check,cmake,docs,engine,examples,host,shaders,tests,tools} "$1"
   cd "$1"
 }
-# install_says YES|NO: it succeeds, and has the Python module or reports that it is not there.
+# install_says FOLDER YES|NO: it succeeds, and has the Python module or reports that it is not there.
 install_says() {
   rm -rf "$folder/prefix"
-  step cmake --install out --prefix "$folder/prefix"
+  step cmake --install "$1" --prefix "$folder/prefix"
   [ -x "$folder/prefix/bin/vkhausdorff" ] && [ -e "$folder/prefix/lib/pkgconfig/vkhausdorff.pc" ] ||
     fail "the installation is not whole"
-  case $1 in
+  case $2 in
     NO) grep -q 'Not installed: the Python module' "$folder/log" || fail "nothing is said of the Python module" ;;
     YES) [ -n "$(find "$folder/prefix" -name '_core*.so')" ] || fail "the Python module is not installed" ;;
   esac
@@ -39,12 +39,12 @@ by_hand() {
   step cmake -S . -B out -G 'Unix Makefiles'
   step tools/quickstart
   grep -q 'interval' "$folder/log" || fail "quickstart printed no interval"
-  install_says NO
+  install_says out/program NO
   built_by_hand
   for program in examples/vkh_embed examples/vkh_frames examples/vkh_renderer tools/vkh_bench; do
     [ -x "out/$program" ] || fail "docs/guide.md names out/$program, which is not built"
   done
-  install_says "$has_python"
+  install_says out "$has_python"
   step cmake --preset release
   step tools/quickstart
 }
@@ -53,7 +53,7 @@ by_hand() {
 quick() {
   copy "$folder/quick"
   step tools/quickstart
-  install_says NO
+  install_says out/program NO
   step cmake -S . -B out
   step cmake --build out -j "$(nproc)" --target vkhausdorff vkh_embed
   step cmake --preset release

@@ -16,15 +16,15 @@ using namespace vkh::test;
 
 using Clock = std::chrono::steady_clock;
 
-std::shared_ptr<const Mesh> shared(Mesh mesh) {
-  return std::make_shared<const Mesh>(std::move(mesh));
+std::shared_ptr<const ReadMesh> shared(Mesh mesh) {
+  return std::make_shared<const ReadMesh>(std::move(mesh));
 }
 
 struct OnDevice {
   Device device;
   Solver solver{device};
-  std::shared_ptr<const Mesh> a = shared(translated(height_field(24, 1), {0, 0, 0.05}));
-  std::shared_ptr<const Mesh> b = shared(height_field(24, 3));
+  std::shared_ptr<const ReadMesh> a = shared(translated(height_field(24, 1), {0, 0, 0.05}));
+  std::shared_ptr<const ReadMesh> b = shared(height_field(24, 3));
 };
 
 /// The same by the steps themselves.

@@ -11,6 +11,7 @@
 
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"
+#include "vkhausdorff/solver.h"
 #include "vkhausdorff/survey.h"
 
 namespace {

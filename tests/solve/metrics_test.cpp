@@ -397,7 +397,8 @@ Answer answered(const Mesh& a, const Mesh& b, double percentile = 95) {
   Question question;
   question.metrics.emplace().percentile = percentile;
   Solver* const on[] = {&solver()};
-  return Asking(question, std::make_shared<const Mesh>(a), std::make_shared<const Mesh>(b), on)
+  return Asking(question, std::make_shared<const ReadMesh>(a), std::make_shared<const ReadMesh>(b),
+                on)
       .answer();
 }
 
@@ -470,7 +471,8 @@ TEST_CASE("figures that are asked for alone decide, take fewer cells, and enclos
     question.metrics.emplace().figures = std::move(figures);
     question.bands = {parse_length("--bands", "0.01abs", PlainNumber::kRefused)};
     Solver* const on[] = {&solver()};
-    return Asking(question, std::make_shared<const Mesh>(a), std::make_shared<const Mesh>(b), on)
+    return Asking(question, std::make_shared<const ReadMesh>(a),
+                  std::make_shared<const ReadMesh>(b), on)
         .answer();
   };
   const Answer all = asked({}), alone = asked({"f1"});

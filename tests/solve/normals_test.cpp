@@ -166,7 +166,7 @@ Metrics metrics_between(const Mesh& a, const Mesh& b, double degrees, const char
   question.effort = effort;
   Solver* const on[] = {&solver()};
   const Answer answer =
-      Asking(question, std::make_shared<const Mesh>(a), std::make_shared<const Mesh>(b), on)
+      Asking(question, std::make_shared<const ReadMesh>(a), std::make_shared<const ReadMesh>(b), on)
           .answer();
   CHECK(to_json(answer_from_json(to_json(answer))) == to_json(answer));
   CHECK(code_of(answer) == (answer.metrics->is_met() ? kExitClosed : kExitNotClosed));

@@ -10,6 +10,7 @@
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/exact.h"
+#include "vkhausdorff/solver.h"
 #include "vkhausdorff/survey.h"
 
 namespace {

@@ -13,6 +13,7 @@
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/error.h"
+#include "vkhausdorff/solver.h"
 #include "vkhausdorff/survey.h"
 
 namespace {

@@ -20,6 +20,7 @@
 #include "vkhausdorff/certificate.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/field_file.h"
+#include "vkhausdorff/solver.h"
 
 namespace {
 

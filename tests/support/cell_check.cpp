@@ -79,8 +79,7 @@ CellCheck::CellCheck(const SurveyedPair& pair, const Mesh& b)
       a_{.name = {},
          .vertices = scaled_by(pair, pair.a.vertices),
          .faces = pair.a.faces,
-         .counts = {},
-         .notes = {}},
+         .counts = {}},
       tree_(scaled_by(pair, b.vertices), b.faces),
       margin_(256 * 0x1p-53 *
               std::max(size_of(a_.vertices), size_of(scaled_by(pair, b.vertices)))) {}

@@ -260,7 +260,7 @@ TEST_CASE("a plate keeps its hole: the bridge's polygon is cut round it") {
   const std::string file =
       "v 0 0 0\nv 30 0 0\nv 30 30 0\nv 0 30 0\nv 10 10 0\nv 20 10 0\nv 20 20 0\nv 10 20 0\n"
       "f 1 2 3 4 1 5 8 7 6 5\n";
-  const Mesh mesh = parse_mesh({.name = "plate.obj", .bytes = file});
+  const ReadMesh mesh = parse_mesh({.name = "plate.obj", .bytes = file});
   CHECK(cover(mesh.vertices, mesh.faces, {15, 14, 0}) == 0);
   CHECK(cover(mesh.vertices, mesh.faces, {5, 14, 0}) == 1);
   CHECK(mesh.polygons.clipped == 1);
@@ -394,7 +394,7 @@ TEST_CASE("a polygon without a triangulation is refused by its face, or fanned a
         "x.obj: face 1: an outline that encloses no area, the first of 2 such faces; expected a "
         "polygon that does not cross itself, or --polygons fan, which measures the fan of its "
         "corners");
-  const Mesh mesh = parse_mesh(
+  const ReadMesh mesh = parse_mesh(
       {.name = "x.obj", .bytes = flat, .limits = {.odd_polygons = OddPolygons::kFanned}});
   CHECK(mesh.faces == Faces{{0, 1, 2}, {0, 1, 2}, {0, 2, 3}, {0, 2, 3}, {0, 3, 2}});
   CHECK(mesh.polygons.fanned == 2);

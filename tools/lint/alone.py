@@ -24,7 +24,7 @@ def configure(build: pathlib.Path, source: pathlib.Path, units: bool = False) ->
     """Returns a folder whose compile_commands.json has every source file of the build, or with `units` its units."""
     folder, values = build / ("units" if units else "alone"), cached(build)
     options = [f"-D{name}={values[name]}" for name in CACHED if values.get(name)]
-    subprocess.run(["cmake", "-S", source, "-B", folder, "-G", values["CMAKE_GENERATOR"], *options, f"-DVKH_UNITY={'ON' if units else 'OFF'}",
+    subprocess.run(["cmake", "-S", source, "-B", folder, "-G", values["CMAKE_GENERATOR"], *options, f"-DVKH_UNITY={'ON' if units else 'OFF'}", "-DVKH_PRECOMPILE=OFF",
                     f"-DVKH_KERNELS={build}/generated/kernels"], check=True, stdout=subprocess.DEVNULL)
     commands = folder / "compile_commands.json"
     entries = json.loads(commands.read_text())

@@ -8,6 +8,7 @@
 #include <stop_token>
 
 #include "vkhausdorff/answer.h"
+#include "vkhausdorff/mesh_io.h"
 #include "vkhausdorff/question.h"
 #include "vkhausdorff/solver.h"
 #include "vkhausdorff/work_meter.h"
@@ -24,7 +25,7 @@ class Asking {
   /// devices of their own for one direction, which share A's faces; the first also surveys and
   /// proves. They must outlive the Asking, and no other code may use them meanwhile. `stop`: a
   /// request ends the work as cancel() does.
-  Asking(Question question, std::shared_ptr<const Mesh> a, std::shared_ptr<const Mesh> b,
+  Asking(Question question, std::shared_ptr<const ReadMesh> a, std::shared_ptr<const ReadMesh> b,
          std::span<Solver* const> solvers, std::stop_token stop = {});
   /// Cancels what is not done, and waits.
   ~Asking();

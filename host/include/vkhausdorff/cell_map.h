@@ -34,7 +34,7 @@ struct MapCell {
 };
 
 /// The barycentrics, on its face, of each corner of a cell.
-std::array<glm::dvec3, 3> weights_of(const MapCell& cell);
+std::array<DVec3, 3> weights_of(const MapCell& cell);
 
 /// Cells that tile the faces of A that have an area; if A is points, one for each of them.
 struct CellMap {

@@ -11,7 +11,7 @@
 namespace vkh {
 
 struct Box {
-  glm::dvec3 lo, hi;
+  DVec3 lo, hi;
 };
 Box bounding_box(const Mesh& mesh);
 Box join(const Box& x, const Box& y);
@@ -31,7 +31,7 @@ struct FileInterval {
 /// frame = (given - centre) * 2^exponent. Any frame is a true one, since the displacement by
 /// storing is measured vertex by vertex; a good one keeps it small.
 struct Frame {
-  glm::dvec3 centre{};
+  DVec3 centre{};
   int exponent = 0;
 
   double to_frame(double length) const;
@@ -66,7 +66,7 @@ struct StoredPoint {
   std::array<float, 3> high{}, low{};
   double displacement = 0;  ///< in frame units, rounded up
 };
-StoredPoint store_point(const Frame& frame, const glm::dvec3& point);
+StoredPoint store_point(const Frame& frame, const DVec3& point);
 
 struct FramedPair {
   Frame frame;

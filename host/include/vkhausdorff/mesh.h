@@ -11,7 +11,6 @@
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/file_faces.h"
 #include "vkhausdorff/mesh_transform.h"
-#include "vkhausdorff/note.h"
 
 namespace vkh {
 
@@ -20,9 +19,6 @@ namespace vkh {
 /// library has them, and GLM converts between both.
 using DVec3 = glm::vec<3, double, glm::packed_highp>;
 using UVec3 = glm::vec<3, uint32_t, glm::packed_highp>;
-static_assert(sizeof(DVec3) == 24 && sizeof(UVec3) == 12 && alignof(DVec3) == alignof(double),
-              "VkHausdorff's vectors must be packed: compile this file without the GLM_FORCE_ "
-              "definitions that change glm::vec<3, double, glm::packed_highp>");
 
 /// The counts taken while a mesh was accepted; all of them are reported, none changes the geometry
 /// but the unreferenced vertices, which are not part of a mesh and are dropped.
@@ -95,9 +91,7 @@ struct Mesh {
   std::optional<PlacedFrom> placed = {};  ///< a user put it elsewhere than its file has it: place()
   bool has_all_bodies = false;            ///< every shape of a scene was read, printed or not
   bool are_points = false;                ///< no surface: face i is the point vertices[i]
-  std::string unit = {};    ///< the coordinates', if the file has it: "m", "mm", "in"; else empty
-  std::vector<Note> notes;  ///< such as polygons: 3 faces of more than three corners were
-                            ///< triangulated
+  std::string unit = {};  ///< the coordinates', if the file has it: "m", "mm", "in"; else empty
 };
 
 /// The memory of a mesh of so many vertices and faces: 24 bytes a vertex, 12 a face.

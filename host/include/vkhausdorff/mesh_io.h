@@ -5,17 +5,29 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vkhausdorff/mesh.h"
+#include "vkhausdorff/note.h"
 #include "vkhausdorff/read_limits.h"
 
 namespace vkh {
 
+/// A mesh as it was read, and notes on its file, such as polygons: 3 faces of more than three
+/// corners were triangulated. It goes wherever a Mesh does.
+struct ReadMesh : Mesh {
+  ReadMesh() = default;
+  ReadMesh(Mesh mesh, std::vector<Note> noted = {})
+      : Mesh(std::move(mesh)), notes(std::move(noted)) {}
+
+  std::vector<Note> notes;
+};
+
 /// Reads a mesh file. Throws InputError with one line: file, line or byte or element, what is
 /// wrong, what was expected. Never allocates by a header's word alone: counts are checked against
 /// the file's size first.
-Mesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
+ReadMesh read_mesh(const std::filesystem::path& path, const ReadLimits& limits = {});
 
 /// Whether the path has the extension of a format that read_mesh reads, in letters of any size.
 bool has_mesh_extension(const std::filesystem::path& path);

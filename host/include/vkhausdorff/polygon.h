@@ -9,6 +9,8 @@
 
 namespace vkh {
 
+struct Note;
+
 struct PolygonResult {
   PolygonKind kind = PolygonKind::kFan;
   /// Any triangulation with this outline is as near to this one, both ways; 0 for a flat one whose
@@ -22,12 +24,12 @@ struct PolygonResult {
 
 /// Replaces a polygon's fan by its triangles. `fan` has the triangles (c0, c1, c2), (c0, c2, c3)
 /// and so on of finite corners, two at least. A convex polygon keeps its fan bit for bit.
-PolygonResult triangulate_fan(std::span<const glm::dvec3> vertices, std::span<glm::uvec3> fan);
+PolygonResult triangulate_fan(std::span<const DVec3> vertices, std::span<UVec3> fan);
 
 /// The note on corners off a plane: `polygons` has an ambiguity.
 Note note_on_ambiguity(const Polygons& polygons);
 
 /// Replaces a fan by triangles of its corners that are named by their place, as many as it has.
-void place_triangles(std::span<const UVec3> triangles, std::span<glm::uvec3> fan);
+void place_triangles(std::span<const UVec3> triangles, std::span<UVec3> fan);
 
 }  // namespace vkh

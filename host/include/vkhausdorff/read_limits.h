@@ -37,8 +37,7 @@ struct ReadLimits {
   bool any_triangulation = false;
   /// Makes triangles of a polygon, in place of triangulate_fan: of the file's face with this
   /// number, whose fan it replaces. Called by several threads; its exception ends the reading.
-  std::function<PolygonResult(uint64_t face, std::span<const glm::dvec3> vertices,
-                              std::span<glm::uvec3> fan)>
+  std::function<PolygonResult(uint64_t face, std::span<const DVec3> vertices, std::span<UVec3> fan)>
       triangulate = {};
   Bodies bodies = Bodies::kSolid;
   /// Reads points alone, as Mesh::are_points. A file that has faces is refused then, as one without

@@ -12,9 +12,11 @@
 #include "vkhausdorff/cell_map.h"
 #include "vkhausdorff/field.h"
 #include "vkhausdorff/solve_options.h"
-#include "vkhausdorff/solver.h"
 
 namespace vkh {
+
+class Solver;
+struct PairView;
 
 /// The reason why a survey ended; of several, the last one here.
 enum class SurveyEnd {

@@ -4,8 +4,8 @@
 
 int main(int argc, char** argv) {  // everything A B FIELD.ply CERTIFICATE.vhc
   if (argc < 5) return 2;
-  const auto a = std::make_shared<const vkh::Mesh>(vkh::read_mesh(argv[1]));
-  const auto b = std::make_shared<const vkh::Mesh>(vkh::read_mesh(argv[2]));
+  const auto a = std::make_shared<const vkh::ReadMesh>(vkh::read_mesh(argv[1]));
+  const auto b = std::make_shared<const vkh::ReadMesh>(vkh::read_mesh(argv[2]));
   vkh::Device device;
   vkh::Solver solver(device);
   vkh::Solver* const solvers[] = {&solver};  // or one on each device: they share A's faces

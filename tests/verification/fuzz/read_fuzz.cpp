@@ -26,7 +26,7 @@ using namespace vkh::test;
 
 // A 3MF file's model part and, behind a zero byte, a slicer's file beside it; the parts of a zip
 // archive are libzip's work, and `any` tests them.
-Mesh parse_3mf_model(const MeshSource& model) {
+ReadMesh parse_3mf_model(const MeshSource& model) {
   const std::string_view bytes = model.bytes;
   const size_t end = std::min(bytes.find('\0'), bytes.size());
   Parts others;
@@ -45,7 +45,7 @@ Mesh parse_3mf_model(const MeshSource& model) {
 struct Reader {
   std::string_view name;
   const char* file;  ///< its extension decides if the content cannot
-  Mesh (*parse)(const MeshSource&);
+  ReadMesh (*parse)(const MeshSource&);
   MutateFile mutate;
 };
 
@@ -70,7 +70,7 @@ void require(bool holds, const char* what) {
   std::abort();
 }
 
-void require_valid(const Mesh& mesh) {
+void require_valid(const ReadMesh& mesh) {
   require(!mesh.faces.empty() && mesh.counts.faces == mesh.faces.size(), "faces are counted");
   require(mesh.counts.vertices == mesh.vertices.size(), "vertices are counted");
   require(mesh.counts.degenerate <= mesh.faces.size(), "no more degenerate faces than faces");
@@ -99,7 +99,7 @@ void require_error_line(const std::string& line) {
   for (const char c : line) require(static_cast<unsigned char>(c) >= 0x20, "an error is one line");
 }
 
-uint64_t bytes_of(const Mesh& mesh) {
+uint64_t bytes_of(const ReadMesh& mesh) {
   return mesh_bytes(mesh.counts.vertices + mesh.counts.unreferenced, mesh.counts.faces);
 }
 
@@ -111,7 +111,7 @@ size_t constant_of(const MeshSource& source) {
 }
 
 // The mesh of a refused file could have had 12 bytes for each byte of the file.
-void read_counted(const MeshSource& source, Mesh& mesh, bool& accepted) {
+void read_counted(const MeshSource& source, ReadMesh& mesh, bool& accepted) {
   uint64_t larger = 12 * source.bytes.size();
   const AllocationCount count;
   try {
@@ -126,7 +126,7 @@ void read_counted(const MeshSource& source, Mesh& mesh, bool& accepted) {
 }
 
 // A limit that the mesh just meets changes nothing, and one byte less refuses it.
-void check_limit(const MeshSource& source, const Mesh& mesh) {
+void check_limit(const MeshSource& source, const ReadMesh& mesh) {
   MeshSource limited = source;
   limited.limits.max_input_bytes = bytes_of(mesh) - 1;
   try {
@@ -142,7 +142,7 @@ bool same_bits(const glm::dvec3& p, const glm::dvec3& q) {
   return std::memcmp(&p, &q, sizeof(p)) == 0;
 }
 
-bool same(const Mesh& a, const Mesh& b) {
+bool same(const ReadMesh& a, const ReadMesh& b) {
   const auto counts = [](const MeshCounts& c) {
     return std::array{c.unreferenced, c.degenerate, c.duplicate, c.polygons};
   };
@@ -153,7 +153,7 @@ bool same(const Mesh& a, const Mesh& b) {
 }
 
 /// The mesh, or the error line.
-std::string read(const MeshSource& source, Mesh& mesh) {
+std::string read(const MeshSource& source, ReadMesh& mesh) {
   try {
     mesh = g_reader->parse(source);
     return "";
@@ -164,7 +164,7 @@ std::string read(const MeshSource& source, Mesh& mesh) {
 
 // Blocks of any size give what one gives.
 void check_blocks(const MeshSource& source) {
-  Mesh whole, joined;
+  ReadMesh whole, joined;
   MeshSource by_blocks = source;
   by_blocks.limits = {.threads = 1, .block_bytes = 1 + source.bytes.size() % 61};
   require(read(source, whole) == read(by_blocks, joined), "blocks give the same error");
@@ -172,10 +172,10 @@ void check_blocks(const MeshSource& source) {
 }
 
 // Requires that all of a scene has no less than its solid part; null: that was refused.
-void check_bodies(const MeshSource& source, const Mesh* solid) {
+void check_bodies(const MeshSource& source, const ReadMesh* solid) {
   MeshSource whole = source;
   whole.limits.bodies = Bodies::kAll;
-  Mesh mesh;
+  ReadMesh mesh;
   bool accepted = false;
   read_counted(whole, mesh, accepted);
   if (!accepted) return;
@@ -185,10 +185,10 @@ void check_bodies(const MeshSource& source, const Mesh* solid) {
 }
 
 // Requires points of a file that is read as such, and a mesh's faces to be refused then.
-void check_points(const MeshSource& source, const Mesh* surface) {
+void check_points(const MeshSource& source, const ReadMesh* surface) {
   MeshSource alone = source;
   alone.limits.points = true;
-  Mesh mesh;
+  ReadMesh mesh;
   bool accepted = false;
   read_counted(alone, mesh, accepted);
   if (!accepted) return;
@@ -232,7 +232,7 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MeshSource source{.name = g_reader->file,
                           .bytes = {reinterpret_cast<const char*>(data), size}};
-  Mesh mesh;
+  ReadMesh mesh;
   bool accepted = false;
   read_counted(source, mesh, accepted);
   if (size % 2 == 0) check_blocks(source);  // for speed

@@ -64,6 +64,7 @@ constexpr unsigned kCreateDeviceErrors =
   X(BindBufferMemory, kMemory)                                       \
   X(BindBufferMemory2, kMemory)                                      \
   X(BindImageMemory, kMemory)                                        \
+  X(SetDebugUtilsObjectNameEXT, kMemory)                             \
   X(CreateFence, kMemory)                                            \
   X(ResetFences, kDeviceMemory)                                      \
   X(GetFenceStatus, kMemoryOrLost)                                   \
