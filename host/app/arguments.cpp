@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 #include "host/answer/options.h"
 #include "host/app/help_groups.h"
@@ -32,7 +34,6 @@ struct Program {
   Typed distance, gate, metrics, demo, doctor;
   TypedMany batch, merge;
   TypedSimplify simplify;
-  std::string device_report;  // doctor's
 
   Program() {
     app.set_version_flag("-V,--version", std::string("vkhausdorff ") + program_version());
@@ -70,11 +71,7 @@ struct Program {
 
     command = app.add_subcommand("doctor", "Devices, drivers and a self-check");
     add_device_option(*command, doctor);
-    command
-        ->add_option("--device-report", device_report,
-                     "Write all that is known of the device, its checks and the times of three "
-                     "sizes as JSON, to send to us")
-        ->type_name("FILE");
+    add_json_option(*command, doctor, "words");
     refuse_empty_values();
     for (CLI::App* one : app.get_subcommands([](CLI::App*) { return true; })) group_options(*one);
     // Last, since a command begins with its parent's.
@@ -230,6 +227,21 @@ std::string see_help(const CLI::App& command) {
   return " (see vkhausdorff " + (is_program ? "--help)" : command.get_name() + " --help-all)");
 }
 
+/// An option of an earlier version, and what to do instead.
+struct GoneOption {
+  std::string_view name, instead;
+};
+constexpr std::array<GoneOption, 1> kGoneOptions{
+    {{"--device-report", "'doctor --json=FILE' writes the device's properties, checks and times"}}};
+
+/// Returns what to do in place of an option that is gone; nothing of any other.
+std::string gone_hint(const std::string& name) {
+  for (const GoneOption& gone : kGoneOptions) {
+    if (gone.name == name) return name + " is gone: " + std::string(gone.instead);
+  }
+  return "";
+}
+
 /// Words the error anew: CLI11 reports a missing command for a misspelt one, and an unexpected
 /// option for a misspelt one.
 std::string usage_message(const Program& program, const CLI::ParseError& error,
@@ -246,6 +258,7 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
     const std::string name = word.substr(0, word.find('='));
     const bool is_known = std::find(options.begin(), options.end(), name) != options.end();
     if (!name.starts_with("--") || name == "--" || is_known) continue;
+    if (std::string hint = gone_hint(name); !hint.empty()) return hint;
     if (const Words others = program.commands_with(name); !others.empty())
       return "unknown option '" + name + "': it is of " + listed(others, " and ");
     const std::string meant = closest_name(name, options);
@@ -327,7 +340,7 @@ CommandLine understand(const Words& given) {
   CommandLine line;
   line.command = Command::kDoctor;
   line.device = program.doctor.device;
-  line.device_report = program.device_report;
+  line.outputs = outputs_of(program.doctor);
   return line;
 }
 

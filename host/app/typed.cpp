@@ -237,12 +237,16 @@ void add_search_options(CLI::App& command, Typed& typed) {
   add_engine_options(command, typed);
 }
 
-void add_output_options(CLI::App& command, Typed& typed) {
+void add_json_option(CLI::App& command, Typed& typed, const std::string& shown) {
   command
       .add_flag("--json", typed.json,
-                "Print one JSON object instead of the table; --json=FILE, without a space, writes "
-                "it beside the table")
+                "Print one JSON object instead of the " + shown +
+                    "; --json=FILE, without a space, writes it beside the " + shown)
       ->type_name("[=FILE]");
+}
+
+void add_output_options(CLI::App& command, Typed& typed) {
+  add_json_option(command, typed, "table");
   command.add_flag("--verbose", typed.verbose,
                    "Also print switches, stages, waves and culled candidates");
   command.add_flag("--verify", typed.verify,

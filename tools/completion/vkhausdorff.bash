@@ -39,7 +39,7 @@ _vkhausdorff() {
     simplify) options="$search --json --max --out --one-way --lock-borders --levels --ratio --certificate --unit --max-input --polygons --bodies" ;;
     merge) options="$tables --list --reproducible --help --help-all" ;;
     demo) options="$search $outputs" ;;
-    doctor) options="--device --device-report --help --help-all" ;;
+    doctor) options="--device --json --help --help-all" ;;
     help) options="$commands" ;;
   esac
   if [[ $current == -* || $command == help ]]; then
