@@ -231,8 +231,11 @@ std::string see_help(const CLI::App& command) {
 struct GoneOption {
   std::string_view name, instead;
 };
-constexpr std::array<GoneOption, 1> kGoneOptions{
-    {{"--device-report", "'doctor --json=FILE' writes the device's properties, checks and times"}}};
+constexpr std::array<GoneOption, 2> kGoneOptions{
+    {{"--device-report", "'doctor --json=FILE' writes the device's properties, checks and times"},
+     {"--field-by",
+      "leave it out: pictures show distances by cells, and --field OUT.ply has the "
+      "bounds of faces"}}};
 
 /// Returns what to do in place of an option that is gone; nothing of any other.
 std::string gone_hint(const std::string& name) {

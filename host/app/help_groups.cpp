@@ -92,7 +92,7 @@ const std::vector<HelpGroup>& help_groups() {
        {"out", "csv", "json", "junit", "github", "field", "image", "report", "title", "figures-csv",
         "points-out", "image-dir", "report-dir", "certificate", "verbose", "verify",
         "reproducible"}},
-      {"How it is drawn", {"view", "field-by", "up", "size", "map", "range", "steps"}},
+      {"How it is drawn", {"view", "up", "size", "map", "range", "steps"}},
       {"How a batch goes on",
        {"resume", "shard", "fail-fast", "list", "together", "lanes", "read-ahead"}},
       {"What it may cost, and how it is done",

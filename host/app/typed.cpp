@@ -109,10 +109,8 @@ void check_max_distance(const Typed& typed) {
   if (typed.metrics) throw UsageError("--max-distance: metrics are of all of A and B");
   if (!typed.statistics && typed.bands.empty() && !typed.pictures.draws_surface())
     throw UsageError(
-        "--max-distance: is of figures and pictures by cells: ask for --stats, --bands, --image or "
+        "--max-distance: is of figures and pictures: ask for --stats, --bands, --image or "
         "--report; in a batch for --image-dir or --report-dir");
-  if (typed.pictures.field_by == "faces" && typed.pictures.draws_surface())
-    throw UsageError("--max-distance: a picture by faces shows all of them: leave out --field-by");
   const bool has_sides = typed.is_signed || typed.max.find(',') != std::string::npos;
   if (!typed.area.empty() || has_sides)
     throw UsageError(
