@@ -13,6 +13,7 @@
 #include "host/app/many_pairs_line.h"
 #include "host/app/simplify_line.h"
 #include "host/app/typed.h"
+#include "host/base/closest_name.h"
 #include "host/base/meant.h"
 #include "vkhausdorff/error.h"
 
@@ -245,6 +246,22 @@ std::string gone_hint(const std::string& name) {
   return "";
 }
 
+/// Returns the option or command that a word may mean: one that it begins, or that begins it, or
+/// that it is a slip of; else nothing.
+std::string name_meant(const std::string& word, const Words& names) {
+  constexpr size_t kBegun = 3;  // letters, besides dashes
+  const size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+  const auto begins = [&](const std::string& longer, const std::string& shorter) {
+    return shorter.size() >= kBegun + dashes && longer.starts_with(shorter);
+  };
+  const auto begun = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return begins(word, name) || begins(name, word);
+  });
+  if (begun != names.end()) return *begun;
+  const Words near = closest_names(word, names, 2);
+  return near.empty() ? std::string() : near.front();
+}
+
 /// Words the error anew: CLI11 reports a missing command for a misspelt one, and an unexpected
 /// option for a misspelt one.
 std::string usage_message(const Program& program, const CLI::ParseError& error,
@@ -252,7 +269,7 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
   const CLI::App& command = program.named(words);
   if (&command == &program.app && !words.empty() && !words[0].starts_with('-')) {
     const Words names = program.command_names();
-    const std::string meant = closest_name(words[0], names);
+    const std::string meant = name_meant(words[0], names);
     return "unknown command '" + words[0] + "': expected " + listed(names, " or ") +
            (meant.empty() ? "" : "; did you mean " + meant + "?");
   }
@@ -264,7 +281,7 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
     if (std::string hint = gone_hint(name); !hint.empty()) return hint;
     if (const Words others = program.commands_with(name); !others.empty())
       return "unknown option '" + name + "': it is of " + listed(others, " and ");
-    const std::string meant = closest_name(name, options);
+    const std::string meant = name_meant(name, options);
     return "unknown option '" + name + "'" +
            (meant.empty() ? see_help(command) : ": did you mean " + meant + "?");
   }
