@@ -19,7 +19,7 @@ if(NOT VKH_SANITIZE)
   # processes that are ended. The faults, the proofs and the spoilt certificates guard what seldom changes.
   vkh_label(full fallbacks barriers real_devices workspace_test api_address_test api_limit_test api_move_test presets_test
                  long_walk_test face_limits_test see effort schema embed_shaders two_drivers driver_lavapipe128
-                 kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address device_report
+                 kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address doctor
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
                  proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
                  python_life python_fork python_lost python_distances python_distances_life)

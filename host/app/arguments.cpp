@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <sstream>
+#include <string_view>
 
 #include "host/answer/options.h"
 #include "host/app/help_groups.h"
@@ -11,6 +13,7 @@
 #include "host/app/many_pairs_line.h"
 #include "host/app/simplify_line.h"
 #include "host/app/typed.h"
+#include "host/base/closest_name.h"
 #include "host/base/meant.h"
 #include "vkhausdorff/error.h"
 
@@ -32,7 +35,6 @@ struct Program {
   Typed distance, gate, metrics, demo, doctor;
   TypedMany batch, merge;
   TypedSimplify simplify;
-  std::string device_report;  // doctor's
 
   Program() {
     app.set_version_flag("-V,--version", std::string("vkhausdorff ") + program_version());
@@ -70,11 +72,7 @@ struct Program {
 
     command = app.add_subcommand("doctor", "Devices, drivers and a self-check");
     add_device_option(*command, doctor);
-    command
-        ->add_option("--device-report", device_report,
-                     "Write all that is known of the device, its checks and the times of three "
-                     "sizes as JSON, to send to us")
-        ->type_name("FILE");
+    add_json_option(*command, doctor, "words");
     refuse_empty_values();
     for (CLI::App* one : app.get_subcommands([](CLI::App*) { return true; })) group_options(*one);
     // Last, since a command begins with its parent's.
@@ -230,6 +228,40 @@ std::string see_help(const CLI::App& command) {
   return " (see vkhausdorff " + (is_program ? "--help)" : command.get_name() + " --help-all)");
 }
 
+/// An option of an earlier version, and what to do instead.
+struct GoneOption {
+  std::string_view name, instead;
+};
+constexpr std::array<GoneOption, 2> kGoneOptions{
+    {{"--device-report", "'doctor --json=FILE' writes the device's properties, checks and times"},
+     {"--field-by",
+      "leave it out: pictures show distances by cells, and --field OUT.ply has the "
+      "bounds of faces"}}};
+
+/// Returns what to do in place of an option that is gone; nothing of any other.
+std::string gone_hint(const std::string& name) {
+  for (const GoneOption& gone : kGoneOptions) {
+    if (gone.name == name) return name + " is gone: " + std::string(gone.instead);
+  }
+  return "";
+}
+
+/// Returns the option or command that a word may mean: one that it begins, or that begins it, or
+/// that it is a slip of; else nothing.
+std::string name_meant(const std::string& word, const Words& names) {
+  constexpr size_t kBegun = 3;  // letters, besides dashes
+  const size_t dashes = std::min(word.find_first_not_of('-'), word.size());
+  const auto begins = [&](const std::string& longer, const std::string& shorter) {
+    return shorter.size() >= kBegun + dashes && longer.starts_with(shorter);
+  };
+  const auto begun = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+    return begins(word, name) || begins(name, word);
+  });
+  if (begun != names.end()) return *begun;
+  const Words near = closest_names(word, names, 2);
+  return near.empty() ? std::string() : near.front();
+}
+
 /// Words the error anew: CLI11 reports a missing command for a misspelt one, and an unexpected
 /// option for a misspelt one.
 std::string usage_message(const Program& program, const CLI::ParseError& error,
@@ -237,7 +269,7 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
   const CLI::App& command = program.named(words);
   if (&command == &program.app && !words.empty() && !words[0].starts_with('-')) {
     const Words names = program.command_names();
-    const std::string meant = closest_name(words[0], names);
+    const std::string meant = name_meant(words[0], names);
     return "unknown command '" + words[0] + "': expected " + listed(names, " or ") +
            (meant.empty() ? "" : "; did you mean " + meant + "?");
   }
@@ -246,9 +278,10 @@ std::string usage_message(const Program& program, const CLI::ParseError& error,
     const std::string name = word.substr(0, word.find('='));
     const bool is_known = std::find(options.begin(), options.end(), name) != options.end();
     if (!name.starts_with("--") || name == "--" || is_known) continue;
+    if (std::string hint = gone_hint(name); !hint.empty()) return hint;
     if (const Words others = program.commands_with(name); !others.empty())
       return "unknown option '" + name + "': it is of " + listed(others, " and ");
-    const std::string meant = closest_name(name, options);
+    const std::string meant = name_meant(name, options);
     return "unknown option '" + name + "'" +
            (meant.empty() ? see_help(command) : ": did you mean " + meant + "?");
   }
@@ -327,7 +360,7 @@ CommandLine understand(const Words& given) {
   CommandLine line;
   line.command = Command::kDoctor;
   line.device = program.doctor.device;
-  line.device_report = program.device_report;
+  line.outputs = outputs_of(program.doctor);
   return line;
 }
 

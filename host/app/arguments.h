@@ -70,8 +70,7 @@ struct CommandLine {
   Question question;        ///< what distance, gate, demo and batch ask
   double time_limit_s = 0;  ///< infinite: none
   Outputs outputs;
-  std::string device;              ///< the device of doctor
-  std::string device_report = {};  ///< its file; empty: none
+  std::string device;  ///< the device of doctor
   BatchAsked batch = {};
   MergeAsked merge = {};
   SimplifyAsked simplify = {};  ///< besides what `question` and `outputs` have

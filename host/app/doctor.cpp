@@ -2,14 +2,12 @@
 
 #include <chrono>
 #include <cstdint>
-#include <optional>
 #include <ostream>
 
 #include "host/app/device_properties.h"
-#include "host/app/device_report.h"
 #include "host/app/self_test.h"
 #include "host/base/decimal.h"
-#include "host/base/output_file.h"
+#include "host/mesh/default_pair.h"
 #include "host/mesh/mesh_pair.h"
 #include "vkhausdorff/answer.h"
 #include "vkhausdorff/device.h"
@@ -34,7 +32,16 @@ MeshPair self_check_pair() {
       make_mesh("walls", std::move(walls), {{0, 1, 2}, {3, 4, 5}})};
 }
 
-void self_check(std::ostream& out, Device& device, Examination& found) {
+/// What the doctor prints to, and the JSON of the same, or null.
+struct Findings {
+  std::ostream& out;
+  Json* json;
+  void add(const char* key, const Json& value) const {
+    if (json != nullptr) (*json)[key] = value;
+  }
+};
+
+bool self_check(const Findings& found, Device& device) {
   const MeshPair pair = self_check_pair();
   const auto start = std::chrono::steady_clock::now();
   Solver solver(device);
@@ -42,24 +49,57 @@ void self_check(std::ostream& out, Device& device, Examination& found) {
   const auto elapsed = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::steady_clock::now() - start);
   const bool encloses = r.lower <= kSelfCheckDistance && kSelfCheckDistance <= r.upper;
-  found.lower = r.lower;
-  found.upper = r.upper;
-  found.distance = kSelfCheckDistance;
-  found.passed = encloses && r.status == Status::kClosed;
-  out << "self-check  true distance " << decimal(kSelfCheckDistance, 17, Rounding::kDown)
-      << (encloses ? " lies in [" : " is NOT in [") << decimal(r.lower, 9, Rounding::kDown) << ", "
-      << decimal(r.upper, 9, Rounding::kUp) << "], " << status_name(r.status) << ", after "
-      << elapsed.count() << " ms: " << (found.passed ? "passed" : "FAILED") << std::endl;
+  const bool passed = encloses && r.status == Status::kClosed;
+  found.add("self_check", {{"passed", passed},
+                           {"distance", kSelfCheckDistance},
+                           {"lower", r.lower},
+                           {"upper", r.upper},
+                           {"ms", elapsed.count()}});
+  found.out << "self-check  true distance " << decimal(kSelfCheckDistance, 17, Rounding::kDown)
+            << (encloses ? " lies in [" : " is NOT in [") << decimal(r.lower, 9, Rounding::kDown)
+            << ", " << decimal(r.upper, 9, Rounding::kUp) << "], " << status_name(r.status)
+            << ", after " << elapsed.count() << " ms: " << (passed ? "passed" : "FAILED")
+            << std::endl;
+  return passed;
+}
+
+Json arithmetic_json(const SelfTestResult& r) {
+  return {{"passed", r.fault.empty()},
+          {"fault", text_or_null(r.fault)},
+          {"inputs", r.items},
+          {"composed_expressions", r.composed},
+          {"rounds_to_nearest", r.rounds_to_nearest},
+          {"flushes", r.flushes},
+          {"worst_quotient_ulp", r.worst_quotient_ulp},
+          {"worst_root_ulp", r.worst_root_ulp},
+          {"largest_subgroup", r.largest_subgroup}};
+}
+
+Json groups_json(const SelfTestResult& r) {
+  Json rows = Json::array();
+  for (size_t flow = 0; flow < kFlowNames.size(); ++flow) {
+    const GroupTally& tally = r.groups[flow];
+    Json wrong = Json::object();
+    for (size_t i = 0; i < kGroupOperations.size(); ++i)
+      wrong[kGroupOperations[i]] = tally.wrong[i];
+    rows.push_back({{"where", kFlowNames[flow]},
+                    {"views", tally.views},
+                    {"partial", tally.partial},
+                    {"wrong", wrong}});
+  }
+  return rows;
 }
 
 /// Measures the properties of arithmetic that the certificate relies on.
-void check_arithmetic(std::ostream& out, const Device& device, Examination& found) {
-  found.arithmetic = run_self_test(device);
-  const SelfTestResult& r = found.arithmetic;
+bool check_arithmetic(const Findings& found, const Device& device) {
+  const SelfTestResult r = run_self_test(device);
+  found.add("arithmetic", arithmetic_json(r));
+  found.add("subgroup_operations", groups_json(r));
+  std::ostream& out = found.out;
   out << "arithmetic  " << r.items << " hard inputs, " << r.composed << " composed expressions: ";
   if (!r.fault.empty()) {
     out << "FAILED: " << r.fault << '\n';
-    return;
+    return false;
   }
   out << "passed; + - * round " << (r.rounds_to_nearest ? "to nearest" : "to a neighbour")
       << ", division within " << decimal(r.worst_quotient_ulp, 3, Rounding::kUp)
@@ -67,6 +107,33 @@ void check_arithmetic(std::ostream& out, const Device& device, Examination& foun
       << " (6), results under 2^-126 " << (r.flushes ? "flushed" : "kept") << ", subgroups of "
       << r.largest_subgroup << "; subgroup operations tried " << r.group_views() << " times, "
       << r.partial_views() << " of them on a part of a subgroup\n";
+  return true;
+}
+
+/// The first run makes the pipelines, and the second is timed.
+Json times_json(Device& device) {
+  const MeshPair pair = default_pair();
+  Solver solver(device);
+  solver.distance(pair.a, pair.b);
+  const Report r = solver.distance(pair.a, pair.b);
+  return {{"faces_a", r.mesh_a.faces},
+          {"faces_b", r.mesh_b.faces},
+          {"status", status_name(r.status)},
+          {"upload_ms", r.times.upload_ms},
+          {"hierarchy_ms", r.times.hierarchy_ms},
+          {"solve_ms", r.times.solve_ms},
+          {"wall_ms", r.times.wall_ms}};
+}
+
+Json description_json(const DeviceDescription& d) {
+  return {{"index", d.index},
+          {"name", d.name},
+          {"type", d.type},
+          {"driver", d.driver},
+          {"api_version", d.api_version},
+          {"memory_bytes", d.memory_bytes},
+          {"usable", d.usable},
+          {"reason", text_or_null(d.reason)}};
 }
 
 void print_device(std::ostream& out, const DeviceDescription& d) {
@@ -76,10 +143,16 @@ void print_device(std::ostream& out, const DeviceDescription& d) {
       << " GiB: " << (d.usable ? "usable" : "not usable: " + d.reason) << '\n';
 }
 
-void print_devices(std::ostream& out, const std::vector<DeviceDescription>& devices) {
-  for (const DeviceDescription& d : devices) print_device(out, d);
-  if (devices.empty()) out << "  none\n";
-  out.flush();
+void print_devices(const Findings& found) {
+  const std::vector<DeviceDescription> devices = list_devices();
+  Json rows = Json::array();
+  for (const DeviceDescription& d : devices) {
+    print_device(found.out, d);
+    rows.push_back(description_json(d));
+  }
+  if (devices.empty()) found.out << "  none\n";
+  found.out.flush();
+  found.add("devices", rows);
 }
 
 void print_chosen(std::ostream& out, const DeviceDescription& chosen) {
@@ -88,40 +161,36 @@ void print_chosen(std::ostream& out, const DeviceDescription& chosen) {
       << chosen.driver << ", Vulkan " << chosen.api_version << std::endl;
 }
 
-/// Returns whether the device can be trusted. Throws DeviceError where a check could not be run.
-bool examine(std::ostream& out, Device& device, const Machine& machine, const OutputFile* report) {
-  Examination found;
-  check_arithmetic(out, device, found);
-  self_check(out, device, found);
-  const bool is_sound = found.arithmetic.fault.empty() && found.passed;
-  if (report == nullptr) return is_sound;
-  std::string sizes, problem;
-  try {
-    sizes = timed_sizes(device);
-  } catch (const DeviceError& error) {
-    problem = error.what();
-  }
-  report->write(device_report(machine, &device, &found, sizes, problem));
+bool examine(const Findings& found, const std::string& selector) {
+  found.out << "vkhausdorff " << program_version() << '\n';
+  const std::string loader = loader_version();
+  found.add("loader", loader);
+  found.out << "loader      Vulkan " << loader << "\ndevices, the preferred first\n";
+  print_devices(found);
+  Device device(DeviceRequest{.selector = selector});
+  print_chosen(found.out, device.description());
+  found.add("device", properties_json(device));
+  const bool is_exact = check_arithmetic(found, device);
+  const bool is_sound = self_check(found, device) && is_exact;
+  if (found.json != nullptr) found.add("times", times_json(device));
   return is_sound;
 }
 
 }  // namespace
 
-bool examine_devices(std::ostream& out, const std::string& selector, const OutputFile* report) {
-  Machine machine;
-  std::optional<Device> device;
+bool examine_devices(std::ostream& out, const std::string& selector, Json* json) {
+  const Findings found{out, json};
+  found.add("schema", "vkhausdorff.doctor/1");
+  found.add("version", program_version());
+  found.add("system", system_name());
+  found.add("problem", nullptr);
+  for (const char* part :
+       {"loader", "devices", "device", "arithmetic", "subgroup_operations", "self_check", "times"})
+    found.add(part, nullptr);
   try {
-    out << "vkhausdorff " << program_version() << '\n';
-    machine.loader = loader_version();
-    out << "loader      Vulkan " << machine.loader << "\ndevices, the preferred first\n";
-    machine.devices = list_devices();
-    print_devices(out, machine.devices);
-    device.emplace(DeviceRequest{.selector = selector});
-    print_chosen(out, device->description());
-    return examine(out, *device, machine, report);
+    return examine(found, selector);
   } catch (const DeviceError& error) {
-    if (report != nullptr)
-      report->write(device_report(machine, device ? &*device : nullptr, nullptr, "", error.what()));
+    found.add("problem", error.what());
     throw;
   }
 }

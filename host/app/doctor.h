@@ -4,16 +4,15 @@
 #include <iosfwd>
 #include <string>
 
-namespace vkh {
+#include "host/answer/json_object.h"
 
-class OutputFile;
+namespace vkh {
 
 /// Lists every Vulkan device, prints which one `selector` chooses and with which driver and loader,
 /// probes the arithmetic that the certificate rests on, and solves a pair whose distance is known
 /// on it: false if a promise is broken, or if the interval misses the distance or stays open.
-/// Throws DeviceError if no device is usable. Writes `report`, unless it is null, in each of these
-/// cases (docs/device-report.md), which takes two more sizes of the demo's pair; throws
-/// OutputError.
-bool examine_devices(std::ostream& out, const std::string& selector, const OutputFile* report);
+/// Throws DeviceError if no device is usable. Fills `json`, unless it is null, as far as it got
+/// (docs/platforms.md), which also solves the demo's pair twice.
+bool examine_devices(std::ostream& out, const std::string& selector, Json* json);
 
 }  // namespace vkh

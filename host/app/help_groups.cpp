@@ -69,7 +69,7 @@ const std::map<std::string, HelpOfCommand>& help_of_commands() {
       {"doctor",
        {{},
         "0 the self-check passed; 2 usage; 5 no device, or one that is not to be trusted; 6 the "
-        "report could not be printed."}}};
+        "findings could not be printed or written."}}};
   return known;
 }
 
@@ -90,9 +90,9 @@ const std::vector<HelpGroup>& help_groups() {
        {"unit", "unit-a", "unit-b", "transform", "scale", "align", "save-transform"}},
       {"What is printed and written",
        {"out", "csv", "json", "junit", "github", "field", "image", "report", "title", "figures-csv",
-        "points-out", "image-dir", "report-dir", "certificate", "device-report", "verbose",
-        "verify", "reproducible"}},
-      {"How it is drawn", {"view", "field-by", "up", "size", "map", "range", "steps"}},
+        "points-out", "image-dir", "report-dir", "certificate", "verbose", "verify",
+        "reproducible"}},
+      {"How it is drawn", {"view", "up", "size", "map", "range", "steps"}},
       {"How a batch goes on",
        {"resume", "shard", "fail-fast", "list", "together", "lanes", "read-ahead"}},
       {"What it may cost, and how it is done",

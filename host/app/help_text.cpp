@@ -6,8 +6,6 @@
 #include <cstring>
 #include <sstream>
 
-#include "host/base/edits.h"
-
 namespace vkh {
 namespace {
 
@@ -47,22 +45,6 @@ size_t terminal_columns() {
       std::from_chars(given, given + std::strlen(given), columns).ec != std::errc())
     return kOtherwise;
   return std::clamp(columns, kLeast, kOtherwise);
-}
-
-std::string closest_name(const std::string& word, const std::vector<std::string>& names) {
-  constexpr size_t kBegun = 3;  // letters, besides dashes
-  const size_t dashes = word.find_first_not_of('-');
-  const auto begins = [&](const std::string& longer, const std::string& shorter) {
-    return shorter.size() >= kBegun + (dashes == std::string::npos ? 0 : dashes) &&
-           longer.starts_with(shorter);
-  };
-  const auto rank = [&](const std::string& name) {
-    return begins(word, name) || begins(name, word) ? size_t{0} : edits(word, name);
-  };
-  const auto best = std::min_element(
-      names.begin(), names.end(),
-      [&](const std::string& x, const std::string& y) { return rank(x) < rank(y); });
-  return best != names.end() && rank(*best) <= 2 ? *best : "";
 }
 
 }  // namespace vkh

@@ -1,9 +1,8 @@
-// Help that fits a terminal, and the closest names to a misspelt one.
+// Help that fits a terminal.
 #pragma once
 
 #include <cstddef>
 #include <string>
-#include <vector>
 
 namespace vkh {
 
@@ -12,8 +11,5 @@ std::string wrapped(const std::string& text, size_t columns);
 
 /// The value of $COLUMNS, from 60 to 100; 100 if it is not set.
 size_t terminal_columns();
-
-/// The name that `word` begins, or that begins it, or is two letters from; empty: none is close.
-std::string closest_name(const std::string& word, const std::vector<std::string>& names);
 
 }  // namespace vkh

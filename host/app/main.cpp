@@ -10,6 +10,7 @@
 #include <iostream>
 #include <optional>
 #include <set>
+#include <sstream>
 
 #include "host/answer/ask_files.h"
 #include "host/answer/exit_code.h"
@@ -128,11 +129,32 @@ int printed(ExitCode code) {
   return code;
 }
 
+/// Examines, and writes what was found where JSON was asked for, even if the doctor could not end.
+bool examine_and_write(const CommandLine& line) {
+  const bool is_json = line.outputs.json;
+  if (!is_json && !line.outputs.json_file) return examine_devices(std::cout, line.device, nullptr);
+  std::optional<OutputFile> file;
+  if (line.outputs.json_file)
+    file.emplace("--json", *line.outputs.json_file, std::vector<std::string>());
+  Json json;
+  const auto write = [&] {
+    const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+    if (file) file->write(text);
+    if (is_json) std::cout << text << std::flush;
+  };
+  std::ostringstream unseen;
+  try {
+    const bool passed = examine_devices(is_json ? unseen : std::cout, line.device, &json);
+    write();
+    return passed;
+  } catch (const DeviceError&) {
+    write();
+    throw;
+  }
+}
+
 int run_doctor(const CommandLine& line) {
-  std::optional<OutputFile> report;
-  if (!line.device_report.empty())
-    report.emplace("--device-report", line.device_report, std::vector<std::string>());
-  const bool passed = examine_devices(std::cout, line.device, report ? &*report : nullptr);
+  const bool passed = examine_and_write(line);
   check_printed();
   if (!passed) throw DeviceError("the self-check failed: do not trust this device or driver");
   return kExitClosed;

@@ -76,11 +76,6 @@ std::array<Length, 2> range_of(const std::vector<std::string>& typed) {
 
 void add_look_options(CLI::App& command, TypedPictures& typed) {
   command.add_option("--view", typed.view, "From where it is drawn: iso, six, or x,y,z [iso]");
-  command
-      .add_option("--field-by", typed.field_by,
-                  "What has a colour of its own: cells, by the estimated distance, or faces, by a "
-                  "bound of the largest, in a gate by the verdict [cells]")
-      ->type_name("cells|faces");
   command.add_option("--up", typed.up, "The axis that points up, y or z [z]");
   command.add_option("--size", typed.size, "Of the picture [1600x1000]")->type_name("WxH");
   command.add_option(
@@ -145,10 +140,11 @@ namespace {
 
 // Refuses options that would be ignored otherwise.
 void check_needed(const TypedPictures& typed, bool draws, const std::string& drawing) {
-  const std::pair<const char*, bool> given[] = {
-      {"--view", typed.view.has_value()}, {"--field-by", typed.field_by.has_value()},
-      {"--up", typed.up.has_value()},     {"--size", typed.size.has_value()},
-      {"--range", !typed.range.empty()},  {"--steps", typed.steps.has_value()}};
+  const std::pair<const char*, bool> given[] = {{"--view", typed.view.has_value()},
+                                                {"--up", typed.up.has_value()},
+                                                {"--size", typed.size.has_value()},
+                                                {"--range", !typed.range.empty()},
+                                                {"--steps", typed.steps.has_value()}};
   for (const auto& [option, is_given] : given) {
     if (is_given && !draws)
       throw UsageError(std::string(option) + ": is of a picture: ask for " + drawing);
@@ -161,10 +157,6 @@ PictureStyle look_of(const TypedPictures& typed) {
   look.options.view = parse_view("--view", typed.view.value_or("iso"));
   look.options.map = parse_colour_map("--map", typed.map.value_or("viridis"));
   if (typed.size) parse_picture_size("--size", *typed.size, look.options);
-  const std::string by = typed.field_by.value_or("cells");
-  if (by != "cells" && by != "faces")
-    throw UsageError("--field-by '" + by + "': expected cells or faces");
-  look.options.by = by == "faces" ? FieldBy::kFaces : FieldBy::kCells;
   const std::string up = typed.up.value_or("z");
   if (up != "y" && up != "z") throw UsageError("--up '" + up + "': expected y or z");
   look.options.up = up == "y" ? Up::kY : Up::kZ;
@@ -238,7 +230,7 @@ Pictures::Pictures(const PicturesAsked& asked, bool symmetric,
 
 void Pictures::write_tables(const Measured& measured) const {
   if (figures_) figures_->write(figures_csv(measured));
-  if (points_) points_->write(points_csv(measured, asked_.look));
+  if (points_) points_->write(points_csv(measured));
 }
 
 std::string Pictures::write(const Answered& done) const {

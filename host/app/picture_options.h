@@ -20,7 +20,7 @@ namespace vkh {
 struct TypedPictures {
   std::string field, image, report, certificate, figures, points, title;
   std::optional<std::string> image_folder, report_folder;  ///< the folders for many pairs
-  std::optional<std::string> view, size, map, up, field_by;
+  std::optional<std::string> view, size, map, up;
   std::vector<std::string> range;
   std::optional<uint32_t> steps;
 

@@ -109,10 +109,8 @@ void check_max_distance(const Typed& typed) {
   if (typed.metrics) throw UsageError("--max-distance: metrics are of all of A and B");
   if (!typed.statistics && typed.bands.empty() && !typed.pictures.draws_surface())
     throw UsageError(
-        "--max-distance: is of figures and pictures by cells: ask for --stats, --bands, --image or "
+        "--max-distance: is of figures and pictures: ask for --stats, --bands, --image or "
         "--report; in a batch for --image-dir or --report-dir");
-  if (typed.pictures.field_by == "faces" && typed.pictures.draws_surface())
-    throw UsageError("--max-distance: a picture by faces shows all of them: leave out --field-by");
   const bool has_sides = typed.is_signed || typed.max.find(',') != std::string::npos;
   if (!typed.area.empty() || has_sides)
     throw UsageError(
@@ -237,12 +235,16 @@ void add_search_options(CLI::App& command, Typed& typed) {
   add_engine_options(command, typed);
 }
 
-void add_output_options(CLI::App& command, Typed& typed) {
+void add_json_option(CLI::App& command, Typed& typed, const std::string& shown) {
   command
       .add_flag("--json", typed.json,
-                "Print one JSON object instead of the table; --json=FILE, without a space, writes "
-                "it beside the table")
+                "Print one JSON object instead of the " + shown +
+                    "; --json=FILE, without a space, writes it beside the " + shown)
       ->type_name("[=FILE]");
+}
+
+void add_output_options(CLI::App& command, Typed& typed) {
+  add_json_option(command, typed, "table");
   command.add_flag("--verbose", typed.verbose,
                    "Also print switches, stages, waves and culled candidates");
   command.add_flag("--verify", typed.verify,

@@ -58,6 +58,8 @@ void add_signed_option(CLI::App& command, Typed& typed, const char* figures);
 void add_effort_option(CLI::App& command, Typed& typed, const std::string& otherwise = "");
 /// `of`: what it leaves out of.
 void add_max_distance_option(CLI::App& command, Typed& typed, const char* of);
+/// `shown`: what --json replaces on standard output, "table".
+void add_json_option(CLI::App& command, Typed& typed, const std::string& shown);
 void add_output_options(CLI::App& command, Typed& typed);
 void add_metrics_options(CLI::App& command, Typed& typed);
 

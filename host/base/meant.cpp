@@ -4,12 +4,12 @@
 #include <array>
 #include <cctype>
 #include <charconv>
-#include <cstdint>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
+#include "host/base/closest_name.h"
 #include "host/base/decimal.h"
-#include "host/base/edits.h"
 #include "host/base/from_chars.h"
 
 namespace vkh {
@@ -83,42 +83,35 @@ std::string stripped(const std::string& text) {
   return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-/// How unlike two words are: by their edits first, then by their first letters and lengths.
-size_t unlikeness(const std::string& word, std::string_view unit) {
-  return 4 * edits(word, unit) + (word[0] == unit[0] ? 0 : 2) +
-         (word.size() == unit.size() ? 0 : 1);
+const TypedUnit* unit_typed(std::string_view word) {
+  const auto* const found = std::find_if(kTypedUnits.begin(), kTypedUnits.end(),
+                                         [&](const TypedUnit& unit) { return unit.typed == word; });
+  return found == kTypedUnits.end() ? nullptr : found;
 }
 
-/// Finds the unit that a misspelt word is closest to: one edit from it, or two from a long word.
-/// Returns null if there is none, or if two different units are as close.
+/// Finds the unit that a misspelt word is closest to. Returns null if there is none, or if two
+/// different units are as close.
 const TypedUnit* nearest_unit(const std::string& word) {
-  constexpr size_t kLong = 6, kNone = SIZE_MAX;
+  constexpr size_t kLong = 6;
   const bool is_word = word.size() > 1 && std::all_of(word.begin(), word.end(),
                                                       [](char c) { return c >= 'a' && c <= 'z'; });
   if (!is_word) return nullptr;
-  const size_t most = word.size() < kLong ? 1 : 2;
+  std::vector<std::string> names;
+  for (const TypedUnit& unit : kTypedUnits) names.emplace_back(unit.typed);
   const TypedUnit* nearest = nullptr;
-  size_t least = kNone;
-  bool is_sole = true;
-  for (const TypedUnit& unit : kTypedUnits) {
-    if (edits(word, unit.typed) > most) continue;
-    const size_t here = unlikeness(word, unit.typed);
-    if (here == least) is_sole = is_sole && unit.unit == nearest->unit;
-    if (here >= least) continue;
-    nearest = &unit;
-    least = here;
-    is_sole = true;
+  for (const std::string& name : closest_names(word, names, word.size() < kLong ? 1 : 2)) {
+    const TypedUnit* const unit = unit_typed(name);
+    if (nearest != nullptr && nearest->unit != unit->unit) return nullptr;
+    nearest = unit;
   }
-  return is_sole ? nearest : nullptr;
+  return nearest;
 }
 
 const TypedUnit* typed_unit(const std::string& text) {
   std::string lower = stripped(text);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  const auto* const found =
-      std::find_if(kTypedUnits.begin(), kTypedUnits.end(),
-                   [&](const TypedUnit& unit) { return unit.typed == lower; });
-  return found == kTypedUnits.end() ? nearest_unit(lower) : found;
+  const TypedUnit* const found = unit_typed(lower);
+  return found == nullptr ? nearest_unit(lower) : found;
 }
 
 /// The end of the number that `text` begins with, including its exponent, if it has one.

@@ -10,7 +10,7 @@
 
 #include "host/answer/csv.h"
 #include "host/base/byte_order_mark.h"
-#include "host/base/edits.h"
+#include "host/base/closest_name.h"
 #include "host/base/id_hash.h"
 #include "host/base/meant.h"
 #include "host/base/parse_number.h"
@@ -77,15 +77,6 @@ bool is_with_unit(const std::string& letters, const std::string& column) {
   return !unit.empty() && unit_meant(unit) == unit;
 }
 
-/// Whether one is a slip of the other. A name of up to three letters is one edit from too many
-/// words: mat and map are not max, nor is tool tol; one letter too many at its end is a slip.
-bool is_slip(const std::string& letters, const std::string& known) {
-  constexpr size_t kLongEnough = 4;
-  if (known.size() < 3) return false;
-  if (known.size() >= kLongEnough) return edits(letters, known) <= 1;
-  return letters.starts_with(known) && letters.size() == known.size() + 1;
-}
-
 /// Returns the column that a name which is none may mean, such as max for Max, maxx and limit; else
 /// nothing.
 std::string column_meant(const std::string& name) {
@@ -97,11 +88,20 @@ std::string column_meant(const std::string& name) {
   for (const Synonym& synonym : kSynonyms) {
     if (letters == synonym.name) return synonym.meant;
   }
+  // One letter too many at the end is a slip, of short names the only one: mat and map are not max,
+  // nor is tool tol.
+  std::vector<std::string> names;
   for (const Column& column : kColumns) {
     const std::string known = letters_of(column.name);
-    if (is_slip(letters, known)) return column.name;
+    if (known.size() >= 3 && letters.starts_with(known) && letters.size() == known.size() + 1)
+      return column.name;
+    if (known.size() > 3) names.push_back(known);
   }
-  return "";
+  const std::vector<std::string> near = closest_names(letters, names, 1);
+  const auto* const column = std::find_if(kColumns.begin(), kColumns.end(), [&](const Column& c) {
+    return !near.empty() && letters_of(c.name) == near.front();
+  });
+  return column == kColumns.end() ? "" : column->name;
 }
 
 // Accepts TRUE too, as spreadsheets write it.

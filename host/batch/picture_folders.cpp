@@ -18,9 +18,8 @@ std::string text_of(const PictureStyle& look) {
   const PictureOptions& o = look.options;
   const glm::dvec3& from = o.view.direction;
   std::string text = std::to_string(o.width) + "x" + std::to_string(o.height);
-  for (const int choice :
-       {static_cast<int>(o.view.kind), static_cast<int>(o.up), static_cast<int>(o.map),
-        static_cast<int>(o.bands), static_cast<int>(o.by)})
+  for (const int choice : {static_cast<int>(o.view.kind), static_cast<int>(o.up),
+                           static_cast<int>(o.map), static_cast<int>(o.bands)})
     text += " " + std::to_string(choice);
   for (const double part : {from.x, from.y, from.z}) text += " " + hex_float(part);
   if (!look.is_plain) text += " sides";

@@ -21,55 +21,59 @@ struct Format {
   std::string_view name;  ///< with its article
   Holds holds;
   std::string_view extensions;  ///< each between blanks
-  std::string_view magic = {};  ///< the beginning of such files
 };
 
-constexpr std::array<Format, 43> kFormats = {{
-    {"a STEP file", Holds::kSurfaces, " .step .stp .p21 ", "ISO-10303-21"},
+constexpr std::array<Format, 31> kFormats = {{
+    {"a STEP file", Holds::kSurfaces, " .step .stp .p21 "},
     {"an IGES file", Holds::kSurfaces, " .iges .igs "},
-    {"a Parasolid file", Holds::kSurfaces, " .x_t .x_b .xmt_txt .xmt_bin ",
-     "**ABCDEFGHIJKLMNOPQRS"},
-    {"an ACIS file", Holds::kSurfaces, " .sat .sab ", "ACIS BinaryFile"},
-    {"an Open CASCADE file", Holds::kSurfaces, " .brep .brp ", "DBRep_DrawableShape"},
+    {"a Parasolid file", Holds::kSurfaces, " .x_t .x_b .xmt_txt .xmt_bin "},
+    {"an ACIS file", Holds::kSurfaces, " .sat .sab "},
+    {"an Open CASCADE file", Holds::kSurfaces, " .brep .brp "},
     {"a JT file", Holds::kSurfaces, " .jt "},
-    {"a SolidWorks file", Holds::kSurfaces, " .sldprt .sldasm "},
-    {"a CATIA file", Holds::kSurfaces, " .catpart .catproduct "},
-    {"an Inventor file", Holds::kSurfaces, " .ipt .iam "},
-    {"a file of NX, Creo or Solid Edge", Holds::kSurfaces, " .prt .asm .par .psm "},
-    {"a Fusion file", Holds::kSurfaces, " .f3d "},
+    {"a CAD program's file", Holds::kSurfaces,
+     " .sldprt .sldasm .catpart .catproduct .ipt .iam .prt .asm .par .psm .f3d "},
     {"a FreeCAD file", Holds::kSurfaces, " .fcstd "},
-    {"a Rhino file", Holds::kSurfaces, " .3dm ", "3D Geometry File Format"},
-    {"a DWG file", Holds::kSurfaces, " .dwg ", "AC10"},
-    {"a DXF file", Holds::kSurfaces, " .dxf "},
-    {"a LAS file", Holds::kPoints, " .las ", "LASF"},
+    {"a Rhino file", Holds::kSurfaces, " .3dm "},
+    {"an AutoCAD file", Holds::kSurfaces, " .dwg .dxf "},
+    {"a LAS file", Holds::kPoints, " .las "},
     {"a text", Holds::kPoints, " .xyz .pts .asc "},
     {"a LAZ file", Holds::kScans, " .laz "},
-    {"an E57 file", Holds::kScans, " .e57 ", "ASTM-E57"},
-    {"a PCD file", Holds::kScans, " .pcd ", "# .PCD"},
+    {"an E57 file", Holds::kScans, " .e57 "},
+    {"a PCD file", Holds::kScans, " .pcd "},
     {"a PTX file", Holds::kScans, " .ptx "},
     {"a scanner's file", Holds::kScans, " .rcp .rcs .fls .fws "},
     {"a DICOM file", Holds::kVoxels, " .dcm "},
     {"a NIfTI file", Holds::kVoxels, " .nii "},
-    {"a volume", Holds::kVoxels, " .mha .mhd .nrrd .vti ", "NRRD"},
+    {"a volume", Holds::kVoxels, " .mha .mhd .nrrd .vti "},
     {"G-code", Holds::kPath, " .gcode "},
-    {"an FBX file", Holds::kMesh, " .fbx ", "Kaydara FBX Binary"},
+    {"an FBX file", Holds::kMesh, " .fbx "},
     {"a COLLADA file", Holds::kMesh, " .dae "},
-    {"a 3DS file", Holds::kMesh, " .3ds "},
-    {"a Blender file", Holds::kMesh, " .blend ", "BLENDER"},
+    {"a Blender file", Holds::kMesh, " .blend "},
     {"an AMF file", Holds::kMesh, " .amf "},
-    {"a VTK file", Holds::kMesh, " .vtk .vtp .vtu ", "# vtk DataFile"},
-    {"a VRML file", Holds::kMesh, " .wrl .vrml ", "#VRML"},
-    {"an X3D file", Holds::kMesh, " .x3d "},
-    {"a USD file", Holds::kMesh, " .usd .usdc .usdz ", "PXR-USDC"},
-    {"a USD file", Holds::kMesh, " .usda ", "#usda"},
-    {"an OpenCTM file", Holds::kMesh, " .ctm ", "OCTM"},
-    {"a Gmsh file", Holds::kMesh, " .msh ", "$MeshFormat"},
-    {"a Draco file", Holds::kMesh, " .drc ", "DRACO"},
-    {"a LightWave file", Holds::kMesh, " .lwo "},
-    {"an Alembic file", Holds::kMesh, " .abc ", "Ogawa"},
-    {"a file of Medit or Ogre", Holds::kMesh, " .mesh .meshb ", "MeshVersionFormatted"},
-    {"a finite-element model", Holds::kMesh, " .nas .bdf .inp .unv "},
+    {"a VTK file", Holds::kMesh, " .vtk .vtp .vtu "},
+    {"a VRML or X3D file", Holds::kMesh, " .wrl .vrml .x3d "},
+    {"a USD file", Holds::kMesh, " .usd .usda .usdc .usdz "},
+    {"a Gmsh file", Holds::kMesh, " .msh "},
+    {"a finite-element model", Holds::kMesh, " .mesh .meshb .nas .bdf .inp .unv "},
+    {"a mesh of another program", Holds::kMesh, " .3ds .ctm .drc .lwo .abc "},
 }};
+
+/// How files begin that often have another name, or none, and the extension that they should have.
+struct Beginning {
+  std::string_view bytes, extension;
+};
+constexpr std::array<Beginning, 12> kBeginnings = {{{"ISO-10303-21", ".step"},
+                                                    {"3D Geometry File Format", ".3dm"},
+                                                    {"AC10", ".dwg"},
+                                                    {"LASF", ".las"},
+                                                    {"ASTM-E57", ".e57"},
+                                                    {"# .PCD", ".pcd"},
+                                                    {"Kaydara FBX Binary", ".fbx"},
+                                                    {"BLENDER", ".blend"},
+                                                    {"# vtk DataFile", ".vtk"},
+                                                    {"#VRML", ".wrl"},
+                                                    {"PXR-USDC", ".usdc"},
+                                                    {"$MeshFormat", ".msh"}}};
 
 constexpr const char* kExports = "STL, OBJ, PLY, OFF, glTF or 3MF";
 
@@ -93,17 +97,9 @@ Stranger told(const Format& format) {
   return {name + ", which is not read", "the mesh exported" + as};
 }
 
-// Recognises a format in XML by its root element, behind a declaration and comments.
+// Recognises COLLADA's root element, or a web page's, behind a declaration and comments.
 Stranger stranger_in_xml(std::string_view head) {
-  struct Root {
-    std::string_view begin, extension;
-  };
-  constexpr std::array<Root, 4> kRoots = {
-      {{"<COLLADA", ".dae"}, {"<VTKFile", ".vtp"}, {"<X3D", ".x3d"}, {"<amf", ".amf"}}};
-  for (const Root& root : kRoots) {
-    if (head.find(root.begin) != std::string_view::npos)
-      return stranger_by_extension(root.extension);
-  }
+  if (head.find("<COLLADA") != std::string_view::npos) return stranger_by_extension(".dae");
   for (const std::string_view page : {"<!DOCTYPE html", "<!doctype html", "<html", "<HTML"}) {
     if (head.find(page) != std::string_view::npos)
       return {"a web page", "the file that it leads to"};
@@ -111,21 +107,14 @@ Stranger stranger_in_xml(std::string_view head) {
   return {};
 }
 
-// Recognises lines of 80 columns, with a letter and a number at their ends.
-bool is_iges(std::string_view head) {
-  return head.size() >= 80 && head[72] == 'S' && head[79] == '1' &&
-         head.substr(73, 6).find_first_not_of(" 0") == std::string_view::npos;
-}
-
 }  // namespace
 
 Stranger stranger_by_content(std::string_view head) {
-  for (const Format& format : kFormats) {
-    if (!format.magic.empty() && head.starts_with(format.magic)) return told(format);
+  for (const Beginning& beginning : kBeginnings) {
+    if (head.starts_with(beginning.bytes)) return stranger_by_extension(beginning.extension);
   }
   const size_t first = std::min(head.find_first_not_of(" \t\r\n"), head.size());
-  if (head.substr(first).starts_with('<')) return stranger_in_xml(head);
-  return is_iges(head) ? stranger_by_extension(".iges") : Stranger();
+  return head.substr(first).starts_with('<') ? stranger_in_xml(head) : Stranger();
 }
 
 Stranger stranger_by_extension(std::string_view extension) {

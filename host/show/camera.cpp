@@ -53,26 +53,12 @@ double spacing_of(const Mesh& mesh) {
   }
 }
 
-Spot spot_of(const Picture& picture) {
-  if (picture.witness) {
-    const Witness& w = *picture.witness;
-    return {w.on_a.point, w.on_b.point, static_cast<size_t>(w.on_a.face)};
-  }
-  const std::vector<double>& upper = picture.field.upper;
-  const auto face =
-      static_cast<size_t>(std::max_element(upper.begin(), upper.end()) - upper.begin());
-  const glm::uvec3& f = picture.mesh.faces[face];
-  const auto& v = picture.mesh.vertices;
-  return {v[f.x] / 3.0 + v[f.y] / 3.0 + v[f.z] / 3.0, std::nullopt, face};
-}
-
 Panel Views::view_from(glm::dvec3 direction, const Area& area) const {
   Panel panel{fitted(picture_.mesh, axes_of(direction, options_.up), area)};
   Camera& camera = panel.camera;
   camera.spacing = spacing_;
   if (spacing_ > 0)  // whole discs
     camera.scale *= 1 - 2 * camera.disc() / std::min(area.width, area.height);
-  panel.shows_spot = is_seen(picture_.mesh, panel.camera, spot_.point);
   return panel;
 }
 
@@ -131,51 +117,6 @@ std::vector<Panel> Views::panels_in(const Area& area) const {
   const Area inner = above.inner(std::round(24 * unit_));
   if (options_.view.kind == View::Kind::kIso) return {corner_view(inner)};
   return {view_from(options_.view.direction, inner)};
-}
-
-glm::dvec3 Views::normal_at_spot() const {
-  const glm::uvec3& f = picture_.mesh.faces[spot_.face];
-  const auto& v = picture_.mesh.vertices;
-  const glm::dvec3 normal =
-      glm::cross((v[f.y] - v[f.x]) / diagonal_, (v[f.z] - v[f.x]) / diagonal_);
-  return glm::length(normal) > 0 ? glm::normalize(normal) : glm::dvec3(0, 0, 1);
-}
-
-size_t Views::best_of(const std::vector<Panel>& panels) const {
-  const glm::dvec3 normal = normal_at_spot();
-  const auto worth = [&](const Panel& panel) {
-    const double facing = std::abs(glm::dot(normal, panel.camera.axes.back));
-    return facing + (panel.shows_spot ? 1 : 0);
-  };
-  const auto best =
-      std::max_element(panels.begin(), panels.end(),
-                       [&](const Panel& x, const Panel& y) { return worth(x) < worth(y); });
-  return static_cast<size_t>(best - panels.begin());
-}
-
-std::optional<Panel> Views::inset_in(const Area& area, const Panel& best) const {
-  constexpr double kLeast = 0.015, kMost = 0.06, kMostToB = 0.2;  // fractions of the diagonal
-  constexpr double kLeastTimes = 3;
-  if (area.width < 1) return std::nullopt;
-  const glm::uvec3& f = picture_.mesh.faces[spot_.face];
-  double radius = kLeast * diagonal_;
-  for (glm::length_t i = 0; i < 3; ++i)
-    radius = std::max(radius, 1.6 * glm::distance(picture_.mesh.vertices[f[i]], spot_.point));
-  radius = std::min(radius, kMost * diagonal_);
-  const double to_b = spot_.closest ? 1.4 * glm::distance(*spot_.closest, spot_.point) : 0;
-  if (to_b <= kMostToB * diagonal_) radius = std::max(radius, to_b);
-  radius = std::min(radius, area.width / (2 * kLeastTimes * best.camera.scale));
-  Panel inset = best;
-  inset.camera.area = area;
-  inset.camera.centre = spot_.point;
-  inset.camera.scale = area.width / (2 * radius);
-  inset.camera.reach = inset.camera.before = 1.01 * diagonal_;
-  inset.camera.widest = 0.03;
-  if (!best.shows_spot) {  // looks along its normal, from within what hides it
-    inset.camera.axes = axes_of(normal_at_spot(), options_.up);
-    inset.camera.before = radius;
-  }
-  return inset;
 }
 
 }  // namespace vkh::drawing

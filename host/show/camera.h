@@ -7,7 +7,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -155,19 +154,10 @@ inline bool is_seen(const Mesh& mesh, const Camera& camera, glm::dvec3 point) {
   });
 }
 
-/// The worst place: the witness, or otherwise the middle of the face of the largest upper.
-struct Spot {
-  glm::dvec3 point{};
-  std::optional<glm::dvec3> closest;  ///< on B
-  size_t face = 0;
-};
-Spot spot_of(const Picture& picture);
-
 /// A part of the picture with a view of the mesh in it.
 struct Panel {
   Camera camera;
   std::string label = {};
-  bool shows_spot = false;
 };
 
 /// Chooses views of a mesh.
@@ -178,28 +168,20 @@ class Views {
       : picture_(picture),
         options_(options),
         unit_(unit),
-        spot_(spot_of(picture)),
         diagonal_(drawn_diagonal_of(picture.mesh)),
         spacing_(spacing_of(picture.mesh)) {}
 
-  const Spot& spot() const { return spot_; }
   std::vector<Panel> panels_in(const Area& area) const;
-  /// The panel that shows the spot best.
-  size_t best_of(const std::vector<Panel>& panels) const;
-  /// The spot, magnified; none if there is no room.
-  std::optional<Panel> inset_in(const Area& area, const Panel& best) const;
 
  private:
   Panel corner_view(const Area& area) const;
   std::vector<size_t> seeing_directions() const;
   std::vector<Panel> six_views(const Area& area) const;
   Panel view_from(glm::dvec3 direction, const Area& area) const;
-  glm::dvec3 normal_at_spot() const;
 
   const Picture& picture_;
   const PictureOptions& options_;
   double unit_;
-  Spot spot_;
   double diagonal_, spacing_;
 };
 

@@ -123,11 +123,6 @@ void Canvas::disc(glm::dvec2 centre, double radius, Rgb colour) {
         [&](glm::dvec2 p) { return radius - glm::distance(p, centre); });
 }
 
-void Canvas::ring(glm::dvec2 centre, double radius, double width, Rgb colour) {
-  cover(around(centre, centre, radius + width), colour, 1,
-        [&](glm::dvec2 p) { return width / 2 - std::abs(glm::distance(p, centre) - radius); });
-}
-
 void Canvas::polygon(const std::vector<glm::dvec2>& corners, Rgb colour) {
   Area bounds = around(corners.front(), corners.front(), 0);
   for (const glm::dvec2& c : corners) {
@@ -158,14 +153,14 @@ void Canvas::hatch(const Area& area, double period) {
   });
 }
 
-void Canvas::arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour, double margin) {
+void Canvas::arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour) {
   const double length = glm::distance(from, to);
   if (length < width) return;
   const glm::dvec2 along = (to - from) / length, aside(-along.y, along.x);
   const double head = std::min(5 * width, 0.7 * length), half = 0.42 * head;
-  const glm::dvec2 tip = to + along * (1.5 * margin), base = to - along * (head + margin);
-  line(from, to - along * (0.8 * head), width + 2 * margin, colour);
-  polygon({tip, base + aside * (half + margin), base - aside * (half + margin)}, colour);
+  const glm::dvec2 base = to - along * head;
+  line(from, to - along * (0.8 * head), width, colour);
+  polygon({to, base + aside * half, base - aside * half}, colour);
 }
 
 }  // namespace vkh::drawing

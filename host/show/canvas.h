@@ -5,12 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include "host/show/colours.h"
+#include "host/show/raster.h"
 
 namespace vkh::drawing {
 
 inline constexpr Rgb kInk{32, 36, 42}, kGrey{105, 112, 122}, kPale{196, 201, 208},
-    kPaper{255, 255, 255}, kSignal{200, 16, 62};
+    kPaper{255, 255, 255};
 
 /// Coordinates are in pixels; the centre of the first pixel is at (0.5, 0.5).
 class Canvas {
@@ -25,13 +25,12 @@ class Canvas {
   void frame(const Area& area, double width, Rgb colour);
   void line(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour);
   void disc(glm::dvec2 centre, double radius, Rgb colour);
-  void ring(glm::dvec2 centre, double radius, double width, Rgb colour);
   /// Draws a convex polygon, its corners in the order of a clock's hand.
   void polygon(const std::vector<glm::dvec2>& corners, Rgb colour);
-  /// Draws stripes as an undecided face has them.
+  /// Draws stripes as a cell that is not resolved has them.
   void hatch(const Area& area, double period);
-  /// Draws a line with a head at `to`, so wide, and with a `margin` around all of it.
-  void arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour, double margin = 0);
+  /// Draws a line, so wide, with a head at `to`.
+  void arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour);
 
  private:
   /// `inside(p)`: the depth of p inside the shape, in pixels.

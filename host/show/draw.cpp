@@ -1,13 +1,12 @@
 #include "host/show/draw.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
 #include "host/base/decimal.h"
 #include "host/show/map_legend.h"
+#include "host/show/mapped_picture.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -15,7 +14,7 @@ namespace drawing {
 namespace {
 
 struct Places {
-  Area views, side, inset;
+  Area views, side;
   double footer;  ///< base line of the first line below
 };
 
@@ -29,53 +28,28 @@ double unit_of(const PictureOptions& options) {
 
 class Drawing {
  public:
-  Drawing(const Device& device, const Picture& picture, const PictureOptions& options)
+  Drawing(const Device& device, const MappedPicture& mapped, const PictureOptions& options)
       : device_(device),
-        picture_(picture),
+        mapped_(mapped),
+        picture_(mapped.drawn),
         options_(options),
         image_{options.width, options.height,
                std::vector<uint8_t>(size_t{4} * options.width * options.height, 255)},
         canvas_(image_),
-        scale_(picture, options),
         unit_(unit_of(options)),
-        sheet_{canvas_, picture, scale_, unit_},
-        views_(picture, options, unit_) {
-    if (picture.map == nullptr) return;
-    map_scale_.emplace(picture, options);
-    counts_ = counts_of(*picture.map, *map_scale_, picture.shares);
-    places_ = worst_places(picture);
-  }
+        sheet_{canvas_, picture_, unit_},
+        views_(picture_, options, unit_) {}
 
-  Image draw() { return picture_.map != nullptr ? draw_map() : draw_faces(); }
+  Image draw();
 
  private:
-  Image draw_faces() {
-    const std::vector<std::string> footer = footer_lines();
-    const Places places = places_for(footer.size());
-    const std::vector<Panel> panels = views_.panels_in(places.views);
-    const Panel& best = panels[views_.best_of(panels)];
-    const std::optional<Panel> inset = views_.inset_in(places.inset, best);
-    Raster raster(device_, most_pixels(panels, inset, false), most_pixels(panels, inset, true));
-    draw_header();
-    draw_lines(footer, places.footer);
-    draw_views(raster, panels, inset);
-    if (inset) draw_inset(raster, *inset, best);
-    draw_legend(places.side);
-    return std::move(image_);
-  }
-  Image draw_map();
-
   std::vector<std::string> footer_lines() const;
   Places places_for(size_t footer_lines) const;
-  static uint32_t most_pixels(const std::vector<Panel>& panels, const std::optional<Panel>& inset,
-                              bool height);
+  static uint32_t most_pixels(const std::vector<Panel>& panels, bool height);
   Layer paint(Raster& raster, const Camera& camera);
   void draw_header();
   double draw_name(double x, const char* letter, const std::string& name, double width);
   void draw_lines(const std::vector<std::string>& lines, double y);
-  void draw_views(Raster& raster, const std::vector<Panel>& panels,
-                  const std::optional<Panel>& inset);
-  void draw_pin(const Panel& panel, const Layer& layer, double clear);
   struct Label {
     glm::dvec2 tip, size;
     double clear;  ///< no nearer to the tip than that
@@ -88,15 +62,7 @@ class Drawing {
   };
   Area place_for_label(const Panel& panel, const Layer& layer, const Label& label,
                        const std::vector<Placed>& taken) const;
-  /// The colour of pointers to the witness: none of the faces' colours.
-  Rgb pin_colour() const { return picture_.limit ? kInk : kSignal; }
-  void draw_ring(glm::dvec2 at, double radius);
-  void draw_frame(const Area& area);
-  void draw_inset(Raster& raster, const Panel& inset, const Panel& best);
-  bool draw_closest(const Camera& camera);
-  void draw_legend(const Area& side);
-  std::string map_colours_text() const;
-  std::string bounds_colours_text() const;
+  std::string colours_text() const;
   void draw_panel_frame(const Panel& panel);
   void draw_axes_and_ruler(const std::vector<Panel>& panels, const Camera& camera);
   void draw_numbers(const Panel& panel, const Layer& layer, bool is_single);
@@ -107,48 +73,37 @@ class Drawing {
   void draw_map_legend(const Area& side);
 
   const Device& device_;
+  const MappedPicture& mapped_;
   const Picture& picture_;
   const PictureOptions& options_;
   Image image_;
   Canvas canvas_;
-  Scale scale_;
   double unit_;
   Sheet sheet_;
   Views views_;
-  std::optional<MapScale> map_scale_;
-  MapCounts counts_;
-  std::vector<MapPlace> places_;
 };
 
 /// Says what a colour is, and how well it is known.
-std::string Drawing::map_colours_text() const {
+std::string Drawing::colours_text() const {
+  if (mapped_.is_of_bounds()) return mapped_.colours_of_bounds();
   const std::string other = picture_.back ? "A" : "B";
   std::string text =
       "Colour: the estimated distance from " + other +
-      (map_scale_->is_signed() ? ", off by at most 5 % of the bar, 10 % about nought,"
-                               : ", off by at most 5 % of the bar,") +
+      (mapped_.scale->is_signed() ? ", off by at most 5 % of the bar, 10 % about nought,"
+                                  : ", off by at most 5 % of the bar,") +
       " where it is not hatched.";
-  if (!map_scale_->is_signed()) text += " Over and under " + other + " are not told apart.";
+  if (!mapped_.scale->is_signed()) text += " Over and under " + other + " are not told apart.";
   if (picture_.mesh.are_points) text += " A disc is a point.";
-  if (!places_.empty() && options_.view.kind != View::Kind::kSix)
+  if (!mapped_.places.empty() && options_.view.kind != View::Kind::kSix)
     text += " A grey number is hidden in this view.";
   return text;
 }
 
-std::string Drawing::bounds_colours_text() const {
-  const std::string other = picture_.back ? "A" : "B";
-  const bool are_points = picture_.mesh.are_points;
-  return std::string(are_points ? "Colour of a point: " : "Colour of a face: ") +
-         (picture_.limit ? "the verdict on its " : "a proven upper bound of its ") +
-         (are_points ? "distance from " : "largest distance from ") + other + ".";
-}
-
 std::vector<std::string> Drawing::footer_lines() const {
-  std::vector<std::string> lines = {picture_.map != nullptr ? map_colours_text()
-                                                            : bounds_colours_text()};
+  std::vector<std::string> lines = {colours_text()};
   if (!picture_.unfinished.empty()) {
     lines[0] += " The map is not finished: " + picture_.unfinished + ".";
-  } else if (picture_.map != nullptr) {
+  } else if (!mapped_.is_of_bounds()) {
     lines[0] += " The map is finished.";
   }
   std::vector<std::string> texts = std::move(lines);
@@ -172,21 +127,13 @@ Places Drawing::places_for(size_t footer_lines) const {
   Places places;
   places.views = {margin, top, std::floor(width), bottom - top};
   places.side = {options_.width - margin - side, top, side, bottom - top};
-  const double square = std::floor(std::min(side, 0.43 * places.side.height));
-  places.inset = {places.side.right() - square, bottom - square, square, square};
-  places.side.height -= square + 56 * unit_;
-  if (places.side.height < 170 * unit_) {  // no room for both
-    places.side.height = bottom - top;
-    places.inset.width = 0;
-  }
   places.footer = bottom + 14 * unit_ + 18 * unit_;
   return places;
 }
 
-uint32_t Drawing::most_pixels(const std::vector<Panel>& panels, const std::optional<Panel>& inset,
-                              bool height) {
+uint32_t Drawing::most_pixels(const std::vector<Panel>& panels, bool height) {
   const auto side = [&](const Area& area) { return height ? area.height : area.width; };
-  double most = inset ? side(inset->camera.area) : 1;
+  double most = 1;
   for (const Panel& panel : panels) most = std::max(most, side(panel.camera.area));
   return static_cast<uint32_t>(most);
 }
@@ -195,10 +142,8 @@ Layer Drawing::paint(Raster& raster, const Camera& camera) {
   const VkExtent2D pixels{static_cast<uint32_t>(camera.area.width),
                           static_cast<uint32_t>(camera.area.height)};
   const double line = std::max(1.0, 1.3 * unit_);
-  Layer layer = picture_.map != nullptr ? raster.draw(pixels, line, picture_.map->cells.size(),
-                                                      cells_for(picture_, *map_scale_, camera))
-                                        : raster.draw(pixels, line, picture_.mesh.faces.size(),
-                                                      faces_for(picture_, scale_, camera));
+  Layer layer = raster.draw(pixels, line, picture_.map->cells.size(),
+                            cells_for(picture_, *mapped_.scale, camera));
   canvas_.paste(layer, static_cast<uint32_t>(camera.area.x), static_cast<uint32_t>(camera.area.y));
   return layer;
 }
@@ -253,40 +198,6 @@ void Drawing::draw_lines(const std::vector<std::string>& lines, double y) {
   }
 }
 
-void Drawing::draw_ring(glm::dvec2 at, double radius) {
-  canvas_.ring(at, radius, 5.5 * unit_, kPaper);
-  canvas_.ring(at, radius, 2.5 * unit_, pin_colour());
-}
-
-/// Draws a frame around the magnified part.
-void Drawing::draw_frame(const Area& area) {
-  canvas_.frame(area, 3.5 * unit_, kPaper);
-  canvas_.frame(area, 1.5 * unit_, kInk);
-}
-
-void Drawing::draw_views(Raster& raster, const std::vector<Panel>& panels,
-                         const std::optional<Panel>& inset) {
-  std::vector<Layer> layers;
-  layers.reserve(panels.size());
-  for (const Panel& panel : panels) layers.push_back(paint(raster, panel.camera));
-  const Panel& best = panels[views_.best_of(panels)];
-  for (size_t i = 0; i < panels.size(); ++i) {
-    const Panel& panel = panels[i];
-    draw_panel_frame(panel);
-    const glm::dvec2 spot(panel.camera.pixel(views_.spot().point));
-    if (&panel == &best) {
-      const double magnified = inset && panel.shows_spot ? inset->camera.scale : 0;
-      const double half =
-          magnified > 0 ? inset->camera.area.width * panel.camera.scale / magnified / 2 : 0;
-      if (half > 0) draw_frame({spot.x - half, spot.y - half, 2 * half, 2 * half});
-      draw_pin(panel, layers[i], half + 24 * unit_);
-    } else if (picture_.witness && panel.shows_spot) {
-      draw_ring(spot, 7 * unit_);
-    }
-  }
-  draw_axes_and_ruler(panels, best.camera);
-}
-
 void Drawing::draw_panel_frame(const Panel& panel) {
   if (panel.label.empty()) return;
   const Area& area = panel.camera.area;
@@ -302,13 +213,12 @@ void Drawing::draw_axes_and_ruler(const std::vector<Panel>& panels, const Camera
   draw_ruler(sheet_, camera, {left + (is_one ? 120 : 4) * unit_, bottom});
 }
 
-Image Drawing::draw_map() {
+Image Drawing::draw() {
   const std::vector<std::string> footer = footer_lines();
-  Places places = places_for(footer.size());
-  places.side.height = places.views.height;
+  const Places places = places_for(footer.size());
   const std::vector<Panel> panels = views_.panels_in(places.views);
-  Raster raster(device_, most_pixels(panels, {}, false), most_pixels(panels, {}, true));
-  raster.set_palette(map_scale_->palette());
+  Raster raster(device_, most_pixels(panels, false), most_pixels(panels, true));
+  raster.set_palette(mapped_.scale->palette());
   draw_header();
   draw_lines(footer, places.footer);
   std::vector<Layer> layers;
@@ -327,13 +237,14 @@ Image Drawing::draw_map() {
 /// hidden in grey. Lines of labels are under the numbers.
 void Drawing::draw_numbers(const Panel& panel, const Layer& layer, bool is_single) {
   std::vector<Placed> labels;
-  for (size_t i = 0; is_single && i < places_.size(); ++i) add_label(panel, layer, i, labels);
+  for (size_t i = 0; is_single && i < mapped_.places.size(); ++i)
+    add_label(panel, layer, i, labels);
   for (const Placed& label : labels) draw_line(label);
   for (const Placed& label : labels) draw_label(label);
-  for (size_t i = places_.size(); i-- > 0;) {  // the worst one is drawn last
-    const bool is_hidden = !is_seen(picture_.mesh, panel.camera, places_[i].point);
+  for (size_t i = mapped_.places.size(); i-- > 0;) {  // the worst one is drawn last
+    const bool is_hidden = !is_seen(picture_.mesh, panel.camera, mapped_.places[i].point);
     if (is_hidden && !is_single) continue;
-    const glm::dvec2 at(panel.camera.pixel(places_[i].point));
+    const glm::dvec2 at(panel.camera.pixel(mapped_.places[i].point));
     if (panel.camera.area.inner(-20 * unit_).has(at)) draw_number(sheet_, at, i + 1, is_hidden);
   }
 }
@@ -355,9 +266,9 @@ bool meets(const Area& box, const glm::dvec2& p, const glm::dvec2& q) {
 void Drawing::add_label(const Panel& panel, const Layer& layer, size_t place,
                         std::vector<Placed>& taken) const {
   const double u = unit_, size = 17 * u;
-  const std::string text = place_text(picture_, places_[place]);
+  const std::string text = place_text(picture_, mapped_.places[place]);
   const glm::dvec2 box_size(text_width(text, size) + 16 * u, 28 * u);
-  const glm::dvec2 tip(panel.camera.pixel(places_[place].point));
+  const glm::dvec2 tip(panel.camera.pixel(mapped_.places[place].point));
   if (!panel.camera.area.inner(-20 * u).has(tip)) return;
   const Area box = place_for_label(panel, layer, {tip, box_size, 16 * u}, taken);
   taken.push_back({box, tip, text});
@@ -381,9 +292,10 @@ void Drawing::draw_label(const Placed& label) {
 }
 
 void Drawing::draw_map_legend(const Area& side) {
-  const MapLegend legend{*map_scale_, counts_, places_};
+  const MapLegend legend{*mapped_.scale, mapped_.counts, mapped_.places};
   const double u = unit_, gap = 18 * u;
-  const double list = places_.empty() ? 0 : (34 + 28 * static_cast<double>(places_.size())) * u;
+  const double list =
+      mapped_.places.empty() ? 0 : (34 + 28 * static_cast<double>(mapped_.places.size())) * u;
   const double histogram = std::min(side.height / 3, 250 * u);
   const bool has_all = side.height > list + histogram + 260 * u;
   const double bar = side.height - (has_all ? list + histogram + 2 * gap : 0);
@@ -448,76 +360,6 @@ Area Drawing::place_for_label(const Panel& panel, const Layer& layer, const Labe
   return best;
 }
 
-/// Draws an arrow to the worst place, with the number that it proves; a ring if it is hidden.
-void Drawing::draw_pin(const Panel& panel, const Layer& layer, double clear) {
-  if (!picture_.witness) return;
-  const double u = unit_;
-  const glm::dvec2 tip(panel.camera.pixel(views_.spot().point));
-  const std::string number = with_unit(picture_, "\u2265 " + printed(picture_).lower);
-  const std::string what = panel.shows_spot ? "at the witness" : "at the witness, hidden here";
-  const double width = std::max(text_width(number, 19 * u), text_width(what, 14 * u));
-  const glm::dvec2 size(std::min(width + 26 * u, panel.camera.area.width), 54 * u);
-  const Area box = place_for_label(panel, layer, {tip, size, clear}, {});
-  const glm::dvec2 from =
-      glm::clamp(tip, glm::dvec2(box.x, box.y), glm::dvec2(box.right(), box.bottom()));
-  const double off = (panel.shows_spot ? 2 : 13) * u;
-  const glm::dvec2 end = tip + (from - tip) * std::min(1.0, off / glm::distance(from, tip));
-  canvas_.arrow(from, end, 3.2 * u, kPaper, 2 * u);
-  canvas_.arrow(from, end, 3.2 * u, pin_colour());
-  if (!panel.shows_spot) draw_ring(tip, 7 * u);
-  canvas_.fill(box.inner(-1.5 * u), pin_colour(), 1, 7 * u);
-  canvas_.fill(box, kPaper, 1, 6 * u);
-  write(canvas_, {box.centre().x, box.y + 23 * u}, shortened(number, 19 * u, size.x - 12 * u),
-        {19 * u, kInk, Align::kCentre});
-  write(canvas_, {box.centre().x, box.y + 44 * u}, shortened(what, 14 * u, size.x - 12 * u),
-        {14 * u, kGrey, Align::kCentre});
-}
-
-/// Draws a line from the witness to its closest point on B, as far as the inset shows it; returns
-/// whether it ends there.
-bool Drawing::draw_closest(const Camera& camera) {
-  if (!views_.spot().closest) return false;
-  const double u = unit_;
-  const Area inner = camera.area.inner(4 * u);
-  const glm::dvec2 from(camera.pixel(views_.spot().point));
-  const glm::dvec2 to(camera.pixel(*views_.spot().closest));
-  const double length = glm::distance(from, to);
-  if (length < 12 * u) return false;
-  double shown = 1;
-  while (shown > 0 && !inner.has(from + (to - from) * shown)) shown -= 1.0 / 64;
-  const glm::dvec2 end = from + (to - from) * shown;
-  canvas_.line(from, end, 5.5 * u, kPaper);
-  canvas_.line(from, end, 2.5 * u, pin_colour());
-  if (shown < 1) return false;
-  canvas_.disc(to, 6.5 * u, kPaper);
-  canvas_.disc(to, 4.5 * u, kInk);
-  return true;
-}
-
-void Drawing::draw_inset(Raster& raster, const Panel& inset, const Panel& best) {
-  const double u = unit_, size = 15 * u;
-  const Area& area = inset.camera.area;
-  paint(raster, inset.camera);
-  canvas_.frame(area, std::max(1.0, 1.5 * u), kInk);
-  const bool has_dot = draw_closest(inset.camera);
-  draw_ring(area.centre(), 8 * u);
-  const auto times = static_cast<size_t>(std::lround(inset.camera.scale / best.camera.scale));
-  std::string text = picture_.witness ? "witness" : "largest upper bound";
-  text += ", \u00d7" + grouped(times);
-  if (!best.shows_spot) text += ", from its side";
-  if (has_dot) text += std::string("; dot: closest on ") + (picture_.back ? "A" : "B");
-  write(canvas_, {area.x, area.y - 9 * u}, shortened(text, size, area.width),
-        {size, kGrey, Align::kLeft});
-}
-
-void Drawing::draw_legend(const Area& side) {
-  if (picture_.limit) {
-    draw_verdicts(sheet_, side);
-  } else {
-    draw_bar(sheet_, side);
-  }
-}
-
 void check(const Picture& picture, const PictureOptions& options) {
   const auto refuse = [](const std::string& why) { throw UsageError("a picture " + why); };
   if (picture.field.lower.size() != picture.mesh.faces.size() ||
@@ -540,7 +382,7 @@ void check(const Picture& picture, const PictureOptions& options) {
 
 Image draw(const Device& device, const Picture& picture, const PictureOptions& options) {
   drawing::check(picture, options);
-  return drawing::Drawing(device, picture, options).draw();
+  return drawing::Drawing(device, drawing::MappedPicture(picture, options), options).draw();
 }
 
 }  // namespace vkh

@@ -1,6 +1,4 @@
-// A picture of A for a report, drawn off screen: by cells in the colours of estimated distances, or
-// each face in the colour of its certified upper bound, or of its verdict if a limit was asked
-// about.
+// A picture of A for a report, drawn off screen: by cells in the colours of estimated distances.
 #pragma once
 
 #include <cstdint>
@@ -30,24 +28,24 @@ struct Witness {
   Enclosure distance = {0, std::numeric_limits<double>::infinity()};
 };
 
-/// The input of a picture: a mesh with bounds for each of its faces, and its texts.
+/// The input of a picture: a mesh with bounds for each of its faces, its map, and its texts.
 struct Picture {
   const Mesh& mesh;
   const Field& field;
   Enclosure interval;                     ///< encloses the largest distance over the mesh
-  std::optional<Limit> limit = {};        ///< faces get verdicts in place of lengths
+  std::optional<Limit> limit = {};        ///< the limit that was asked about
   std::string limit_as = {};              ///< as the user typed it; empty: by its number
   std::optional<Verdict> verdict = {};    ///< for all that was asked; otherwise by interval and
                                           ///< limit
-  std::optional<Witness> witness = {};    ///< otherwise the face of the largest upper is magnified
+  std::optional<Witness> witness = {};    ///< it is one of the worst places
   std::string unit = {};                  ///< of lengths; empty: the files' units
   std::string name = {}, against = {};    ///< names of both meshes, as people know them
   bool back = false;                      ///< the mesh is B, and was measured against A
   std::vector<std::string> caption = {};  ///< lines below the picture
-  /// The mesh by cells, for distances in place of bounds of faces; null: faces are drawn.
+  /// The mesh by cells; null: no survey gave one, and the bounds of faces stand in.
   const CellMap* map = nullptr;
-  const Statistics* statistics = nullptr;  ///< figures for a picture by cells; null: none
-  std::optional<SidedLimits> sided = {};   ///< limits that differ by side, of a picture by cells
+  const Statistics* statistics = nullptr;  ///< figures; null: none were asked for
+  std::optional<SidedLimits> sided = {};   ///< limits that differ by side
   /// The survey's shares and bar; null: limits, map and options decide the bar.
   const MapShares* shares = nullptr;
   std::string unfinished = {};  ///< why the survey was cut short; empty: it was not
@@ -67,18 +65,13 @@ struct View {
 /// The axis that points up in a picture.
 enum class Up { kZ, kY };
 
-/// The parts of a mesh that have a colour each.
-enum class FieldBy { kCells, kFaces };
-
 struct PictureOptions {
-  FieldBy by = FieldBy::kCells;  ///< cells only where the picture has a map
   uint32_t width = 1600, height = 1000;
   View view = {};
   Up up = Up::kZ;
   ColourMap map = ColourMap::kViridis;
   /// The lengths at the ends of the colour bar, the same for all pictures of a batch; otherwise
-  /// from 0 to one and a half times the limit, or else to CellMap::bar, or for faces to the largest
-  /// upper that is finite.
+  /// from 0 to one and a half times the limit, or else to CellMap::bar.
   std::optional<Enclosure> range = {};
   uint32_t bands = 0;  ///< number of steps of colour; 0: as smooth as the map
 };

@@ -45,7 +45,6 @@ void add_map(const Side& side, const Answer& answer, Picture& picture) {
   if (!side.survey.map || side.survey.map->cells.empty()) return;
   picture.map = &*side.survey.map;
   if (side.survey.shares) picture.shares = &*side.survey.shares;
-  if (side.survey.statistics) picture.statistics = &*side.survey.statistics;
   picture.unfinished = unfinished_text(side.survey.ended);
   if (answer.max && answer.max->sides) picture.sided = answer.max->sides->limits;
 }
@@ -71,15 +70,11 @@ Enclosure interval_of(const Side& side) { return {side.report.lower, side.report
 void ask_for(const PictureStyle& look, Question& question) {
   const PictureOptions& options = look.options;
   question.map_range = look.range;
-  if (options.by == FieldBy::kFaces || question.limits.any_triangulation) {
-    question.faces = true;
-    return;
-  }
   question.map_pixels = kPixelsOfDiagonal * std::max(options.width, options.height);
   question.map_sides = !look.is_plain && !(look.range && (*look.range)[0].number != 0);
 }
 
-Picture drawn_of(const Side& side, const Answer& answer, const PictureStyle& look) {
+Picture drawn_of(const Side& side, const Answer& answer) {
   Picture picture{.mesh = side.mesh,
                   .field = side.survey.field,
                   .interval = interval_of(side),
@@ -88,7 +83,8 @@ Picture drawn_of(const Side& side, const Answer& answer, const PictureStyle& loo
                   .against = label_of(answer, !side.back),
                   .back = side.back,
                   .caption = {in_words(answer)}};
-  if (look.options.by == FieldBy::kCells) add_map(side, answer, picture);
+  add_map(side, answer, picture);
+  if (side.survey.statistics) picture.statistics = &*side.survey.statistics;
   if (answer.max) picture.limit = answer.max->limit;
   if (answer.max) picture.limit_as = limit_as(*answer.max);
   if (answer.max) picture.verdict = verdict_of(answer, side.back);
@@ -100,7 +96,7 @@ Picture drawn_of(const Side& side, const Answer& answer, const PictureStyle& loo
 
 std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,
                        const Device& device) {
-  return encode_png(draw(device, drawn_of(side, answer, look), options_of(look, answer)));
+  return encode_png(draw(device, drawn_of(side, answer), options_of(look, answer)));
 }
 
 std::vector<std::string> pictures_or_none(const Measured& measured, const PictureStyle& look,
@@ -121,10 +117,7 @@ std::string report_of(const Measured& measured, std::span<const std::string> pic
   const std::vector<Side> sides = sides_of(measured);
   std::vector<PageDirection> directions;
   for (size_t i = 0; i < sides.size(); ++i) {
-    const std::optional<Statistics>& statistics = sides[i].survey.statistics;
-    directions.push_back({.drawn = drawn_of(sides[i], measured.answer, look),
-                          .statistics = statistics ? &*statistics : nullptr,
-                          .picture = pictures[i]});
+    directions.push_back({.drawn = drawn_of(sides[i], measured.answer), .picture = pictures[i]});
   }
   PageContents contents{.answer = &measured.answer,
                         .a_to_b = directions[0],

@@ -34,7 +34,7 @@ struct Side {
   bool back;
 };
 
-/// Asks for what such a picture shows: a map by cells, or bounds of faces.
+/// Asks for what such a picture shows: a map by cells.
 void ask_for(const PictureStyle& look, Question& question);
 
 /// Returns one, or both of a symmetric answer. Throws OutputError if nothing was surveyed.
@@ -47,7 +47,7 @@ Enclosure interval_of(const Side& side);
 
 /// All that a picture of a side shows, and a page and a table of its places, too. It refers to the
 /// side and the answer.
-Picture drawn_of(const Side& side, const Answer& answer, const PictureStyle& look);
+Picture drawn_of(const Side& side, const Answer& answer);
 
 /// Returns a PNG's bytes. Throws what draw() throws, and UsageError for a range that the files'
 /// units do not resolve.

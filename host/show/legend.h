@@ -9,7 +9,6 @@ namespace vkh::drawing {
 struct Sheet {
   Canvas& canvas;
   const Picture& picture;
-  const Scale& scale;
   double unit;
 };
 
@@ -35,10 +34,8 @@ std::string limit_text(const Picture& picture);
 /// "the limit is 0.1 mm", for a share of a diagonal with its length, too; or "the limits are
 /// +0.2 mm over and −0.1 mm under B".
 std::string limit_clause(const Picture& picture);
-/// Draws a bar with ticks, and the interval on it.
-void draw_bar(const Sheet& sheet, const Area& area);
-/// Draws the three verdicts, and how many faces have each.
-void draw_verdicts(const Sheet& sheet, const Area& area);
+/// A colour per verdict that all kinds of colour vision tell apart, also in grey.
+Rgb verdict_colour(Verdict verdict);
 /// Draws the directions of x, y and z.
 void draw_axes(const Sheet& sheet, const Axes& axes, glm::dvec2 origin);
 /// Draws a round length of the mesh, to scale; `at`: its left end.

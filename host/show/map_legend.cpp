@@ -24,6 +24,8 @@ const char* of_what(const Picture& picture) {
 // side are seen.
 std::string unresolved_text(const Picture& picture, double share) {
   const bool is_small = picture.unfinished.empty() && !picture.mesh.are_points;
+  if (picture.mesh.polygons.any_triangulation)
+    return "not resolved, by any triangulation: " + percent_text(share);
   return (is_small ? "not resolved, in cells under a pixel: " : "not resolved: ") +
          percent_text(share);
 }
@@ -121,7 +123,7 @@ std::vector<LegendRow> legend_rows(const Picture& picture, const MapScale& scale
                     "left out, over " + number(*picture.map->max_distance) + ": " +
                         percent_text(counts.left_out) + of_what(picture)});
   if (counts.unresolved > 0)
-    rows.push_back({kUnbounded, true, unresolved_text(picture, counts.unresolved)});
+    rows.push_back({kUnresolved, true, unresolved_text(picture, counts.unresolved)});
   return rows;
 }
 

@@ -13,6 +13,8 @@ namespace vkh::drawing {
 /// side; and of what is left out.
 inline constexpr Rgb kOver{214, 32, 140}, kBelow{91, 15, 128}, kNoSide{150, 150, 150},
     kLeftOut{205, 209, 218};
+/// The colour between the stripes of the legend's swatch for what is not resolved.
+inline constexpr Rgb kUnresolved{215, 215, 215};
 
 /// Distances to shares of a bar, and shares to colours. Distances are signed where the map has
 /// sides.

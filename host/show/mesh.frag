@@ -1,5 +1,5 @@
 // One sample of a face: its colour, or that of its share of the bar (palette.h), hatched where it
-// is undecided or not resolved, darker along its edges; of a disc what is in the inscribed circle.
+// is not resolved; of a disc what is in the inscribed circle.
 #version 450
 
 layout(location = 0) flat in vec4 face_colour;
@@ -10,7 +10,6 @@ layout(location = 3) noperspective in float bar_share;
 const int kOutside = 6, kWithin = 16;
 
 layout(push_constant) uniform Samples {
-  float half_edge;                       // half of an edge's width, in samples
   float hatch_period;                    // period along a row, in samples
   float from, to;                        // the limits, as shares of the bar
   uint colours[2 * kOutside + kWithin];  // below, within, above; alpha of the first: bands
@@ -22,13 +21,6 @@ const float kStripe = 0.42;  // share of a period
 const vec3 kStripeColour = vec3(0.29, 0.25, 0.20);
 const float kRim = 0.3;  // the darkness of a disc's rim, which tells it from its neighbours
 const vec3 kOver = vec3(214, 32, 140) / 255, kBelow = vec3(91, 15, 128) / 255;  // map_scale.h
-
-float nearest_edge() {
-  const vec3 across =
-      sqrt(dFdx(barycentric) * dFdx(barycentric) + dFdy(barycentric) * dFdy(barycentric));
-  const vec3 samples = barycentric / max(across, vec3(1e-20));
-  return min(min(samples.x, samples.y), samples.z);
-}
 
 vec3 between(int first, int count, float share) {
   const float at = clamp(share, 0.0, 1.0) * float(count - 1);
@@ -54,11 +46,9 @@ float from_middle() {
 }
 
 void main() {
-  const float edge = nearest_edge();
   vec3 shown = face_is_so.y != 0 ? bar_colour(bar_share) * face_colour.r : face_colour.rgb;
   if (face_is_so.x != 0 && fract((gl_FragCoord.x + gl_FragCoord.y) / hatch_period) < kStripe)
     shown = kStripeColour;
-  if (edge < half_edge) shown *= 1 - face_colour.a;
   if (face_is_so.z != 0) {
     const float off = from_middle();
     if (off > 1) discard;

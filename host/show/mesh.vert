@@ -2,7 +2,7 @@
 #version 450
 
 layout(location = 0) in vec3 position;  // in Vulkan's clip space
-layout(location = 1) in vec4 colour;    // shaded; a: the darkness of the face's edges
+layout(location = 1) in vec4 colour;    // shaded
 layout(location = 2) in uvec4 is_so;    // 1: the face is hatched; its colour is the share's; a disc
 layout(location = 3) in float share;    // of the bar; colour.r is then the light
 

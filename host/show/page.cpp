@@ -8,6 +8,7 @@
 
 #include "host/base/decimal.h"
 #include "host/show/escape.h"
+#include "host/show/mapped_picture.h"
 #include "host/show/page_assets.h"
 #include "host/show/page_figures.h"
 #include "host/show/page_mesh.h"
@@ -24,48 +25,12 @@ constexpr size_t kLeastFaces = 100;       // fewer show nothing: such a page has
 constexpr size_t kMostFaces = 5'000'000;  // corners are numbered in three bytes
 constexpr size_t kCurvePoints = 1000;     // more than the columns of a screen
 
-using drawing::MapScale;
-
-/// The distance that 99 % of the area, or of the points, is within, or the largest if that is not
-/// known.
-double bar_of(const PageDirection& side, double top) {
-  const bool has_any = side.statistics && !side.statistics->percentiles.empty();
-  const double end = has_any ? side.statistics->percentiles.back().distance.upper : top;
-  return end > 0 && end < top ? end : top;
-}
-
-/// The largest distance that is known of a direction.
-double top_of(const Picture& drawn) {
-  if (std::isfinite(drawn.interval.upper)) return drawn.interval.upper;
-  double top = 0;
-  for (size_t f = 0; f < drawn.field.face_count(); ++f) {
-    const double upper = drawn.field.upper[f];
-    top = std::max(top, std::isfinite(upper) ? upper : drawn.field.lower[f]);
-  }
-  return top;
-}
-
-/// One direction, with a map of its bounds where it has none by cells.
-struct PageSide {
+/// One direction.
+struct PageSide : drawing::MappedPicture {
   PageSide(const PageDirection& side, const PictureOptions& look)
-      : given(side), drawn(side.drawn), places(worst_places(side.drawn)) {
-    if (drawn.map == nullptr)
-      drawn.map =
-          &bounds.emplace(map_of_bounds(drawn.mesh, drawn.field, bar_of(side, top_of(drawn))));
-    scale.emplace(drawn, look);
-    counts = counts_of(*drawn.map, *scale, drawn.shares);
-  }
-  PageSide(const PageSide&) = delete;
-  PageSide& operator=(const PageSide&) = delete;
-
-  bool is_by_faces() const { return bounds.has_value(); }
+      : MappedPicture(side.drawn, look), given(side) {}
 
   const PageDirection& given;
-  Picture drawn;
-  std::vector<MapPlace> places;
-  std::optional<CellMap> bounds;
-  std::optional<MapScale> scale;
-  drawing::MapCounts counts;
 };
 
 /// Everything of a page but the shown meshes and the pictures.
@@ -81,7 +46,7 @@ class PageWriter {
     if (contents.b_to_a)
       sides_.push_back(std::make_unique<PageSide>(*contents.b_to_a, contents.look));
     for (const auto& side : sides_) {
-      top_ = std::max(top_, top_of(side->drawn));
+      top_ = std::max(top_, drawing::largest_known(side->drawn));
       bar_ = std::max({bar_, side->scale->high(), -side->scale->low()});
     }
     const std::optional<Limit> asked =
@@ -138,7 +103,7 @@ class PageWriter {
     view["sides"] = Json::array();
     for (const auto& side : sides_) {
       view["sides"].push_back(side_view(
-          text_, {side->drawn, *side->scale, side->counts, side->places, side->given.statistics}));
+          text_, {side->drawn, *side->scale, side->counts, side->places, side->drawn.statistics}));
       add_picture(side->given, view["sides"].back());
     }
     view["record"] = record_view(text_);
@@ -206,7 +171,7 @@ class PageWriter {
                  {"curve", Json::array()},
                  {"of", of_text(*sides_[i])},
                  {"scale", scale_json(*sides_[i]->scale)}};
-    if (const Statistics* statistics = sides_[i]->given.statistics) {
+    if (const Statistics* statistics = sides_[i]->drawn.statistics) {
       side["curve"] = curve_json(statistics->curve);
       for (const AreaWithin& band : statistics->bands) {
         if (is_limit(answer_, band)) side["atLimit"] = {band.share.lower, band.share.upper};
@@ -238,10 +203,8 @@ class PageWriter {
     const bool are_points = side.drawn.mesh.are_points;
     const std::string one = are_points ? "point" : "face";
     std::string text =
-        side.is_by_faces()
-            ? "Each " + one +
-                  " has the colour of the middle of its bounds; those of hatched ones are farther "
-                  "apart than a tenth of the bar."
+        side.is_of_bounds()
+            ? side.colours_of_bounds()
             : "Colours are estimated distances; hatched parts are known less closely than 5 % of "
               "the bar.";
     if (is_decimated)

@@ -14,9 +14,8 @@ namespace vkh {
 
 /// The measured mesh of one direction. All that is pointed at stays the caller's.
 struct PageDirection {
-  Picture drawn;                           ///< what the view shows, as a picture would
-  const Statistics* statistics = nullptr;  ///< nullptr: none were asked for
-  std::string_view picture = {};           ///< a PNG's bytes; empty: none
+  Picture drawn;                  ///< what the view shows, as a picture would
+  std::string_view picture = {};  ///< a PNG's bytes; empty: none
 };
 
 struct PageContents {

@@ -27,7 +27,7 @@ constexpr uint64_t kMostInAll = uint64_t{40} << 20;  // 320 MiB of colour and de
 
 // As mesh.frag has them; every device takes so many bytes.
 struct Constants {
-  float half_edge, hatch_period, from, to;
+  float hatch_period, from, to;
   std::array<uint32_t, 2 * Palette::kOutside + Palette::kWithin> colours{};
 
   void add(const Palette& palette) {
@@ -43,7 +43,7 @@ struct Constants {
     colours[0] |= palette.bands << 24;
   }
 };
-static_assert(sizeof(Constants) == 128);
+static_assert(sizeof(Constants) == 124);
 
 uint32_t most_side(const Device& device) {
   VkPhysicalDeviceProperties2 properties{};
@@ -296,7 +296,7 @@ void RasterPipeline::make_pipeline() {
 }
 
 void Raster::draw_some(VkExtent2D samples, double line, size_t face_count, bool first) {
-  constexpr double kHatchLines = 7;  // a period, in edges' widths
+  constexpr double kHatchLines = 7;  // a period, in widths of lines
   const VulkanApi& vk = device_.vk();
   const VkCommandBuffer commands = submitter_.begin();
   std::array<VkClearValue, 2> clear{};
@@ -316,10 +316,8 @@ void Raster::draw_some(VkExtent2D samples, double line, size_t face_count, bool 
   const VkRect2D scissor{{0, 0}, samples};
   vk.CmdSetViewport(commands, 0, 1, &viewport);
   vk.CmdSetScissor(commands, 0, 1, &scissor);
-  Constants constants{.half_edge = static_cast<float>(line * samples_ / 2),
-                      .hatch_period = static_cast<float>(line * samples_ * kHatchLines),
-                      .from = 0,
-                      .to = 1};
+  Constants constants{
+      .hatch_period = static_cast<float>(line * samples_ * kHatchLines), .from = 0, .to = 1};
   constants.add(palette_);
   vk.CmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                       sizeof(constants), &constants);

@@ -15,8 +15,7 @@ namespace vkh::drawing {
 struct Corner {
   float x = 0, y = 0, z = 0;  ///< in Vulkan's clip space
   float share = 0;            ///< of the bar, with `by_share`
-  uint8_t colour[4] =
-      {};  ///< the last: the darkness of the face's edges; the first by share: the light
+  uint8_t colour[4] = {};     ///< of which the shaders take three; by share the first is the light
   uint8_t hatched = 0, by_share = 0;
   uint8_t is_disc = 0;  ///< the circle inscribed in the face is drawn
   uint8_t pad = 0;
@@ -86,7 +85,7 @@ class Raster {
   Raster(const Raster&) = delete;
   Raster& operator=(const Raster&) = delete;
 
-  /// `line`: the width of edges, in pixels; hatches go with it.
+  /// `line`: the width of lines, in pixels; hatches go with it.
   Layer draw(VkExtent2D pixels, double line, size_t face_count, const FillFaces& fill);
 
   /// The colours of shares, from now on.

@@ -68,13 +68,13 @@ std::string figures_csv(const Measured& measured) {
   return out;
 }
 
-std::string points_csv(const Measured& measured, const PictureStyle& look) {
+std::string points_csv(const Measured& measured) {
   const Answer& answer = measured.answer;
   std::string out =
       row_text({"from", "place", "x", "y", "z", "deviation", "lower", "upper", "face", "unit"});
   for (const Side& side : sides_of(measured)) {
     size_t number = 0;
-    for (const MapPlace& place : worst_places(drawn_of(side, answer, look))) {
+    for (const MapPlace& place : worst_places(drawn_of(side, answer))) {
       const char* sign = place.side == SurfaceSide::kUnder && place.distance > 0 ? "-" : "";
       out += row_text(
           {side.back ? "B" : "A", std::to_string(++number), shortest_decimal(place.point.x),

@@ -12,11 +12,11 @@ namespace vkh {
 /// unit of a share is 1. Throws OutputError if nothing was surveyed.
 std::string figures_csv(const Measured& measured);
 
-/// One row per worst place of each direction, as pictures and pages of that look have them: from,
+/// One row per worst place of each direction, as pictures and pages have them: from,
 /// place, x, y, z, deviation, lower, upper, face, unit. The deviation is estimated, and negative
 /// where it is proven to be under the other surface. `lower` and `upper` enclose the distance of
 /// the point without a sign; of places by faces, the largest distance over the face. Throws
 /// OutputError if nothing was surveyed.
-std::string points_csv(const Measured& measured, const PictureStyle& look);
+std::string points_csv(const Measured& measured);
 
 }  // namespace vkh

@@ -89,6 +89,22 @@ double least_area(const SurveyedPair& pair, const Areas& areas, const MapOptions
   return pixel * pixel / 2;
 }
 
+// How far other triangulations of both meshes' polygons may move a distance, in the files' units.
+// The displacement has it, too.
+double open_of(const SurveyedPair& pair) {
+  double open = 0;
+  for (const Mesh* mesh : {&pair.a, &pair.b})
+    open += mesh->polygons.any_triangulation ? mesh->polygons.ambiguity : 0;
+  return open;
+}
+
+// The width up to which a cell is resolved, in the frame. What is open is no cell's fault: where it
+// alone is too much, cells are split as if it were not there.
+double step_of(double end, double open, double floor) {
+  const double step = CellMap::kUnresolved * end;
+  return std::max(open < step ? step - open : step, floor);
+}
+
 // The distance beyond which a map leaves cells out, in the frame.
 double most_of(const SurveyOptions& options, const SurveyedPair& pair) {
   return options.max_distance ? pair.frame.to_frame(typed_length(*options.max_distance))
@@ -100,14 +116,14 @@ double most_of(const SurveyOptions& options, const SurveyedPair& pair) {
 std::optional<Goal> map_goal(const SurveyOptions& options, const SurveyedPair& pair,
                              const Areas& areas) {
   if (!options.map || pair.a.are_points || !areas.is_positive()) return {};
-  const double most = most_of(options, pair);
+  const double most = most_of(options, pair), open = pair.frame.to_frame(open_of(pair));
   const double least = least_area(pair, areas, *options.map), floor = least_width(pair);
   std::optional<double> bar;
   if (options.map->bar) bar = pair.frame.to_frame(*options.map->bar);
-  return [&areas, bar, most, least, floor](const CellStore& store) {
+  return [&areas, bar, most, open, least, floor](const CellStore& store) {
     const auto middle = [&](size_t i) { return middle_of(store.bounds(i)); };
     const double end = bar ? *bar : percentile_99(store, areas, most, middle);
-    const double step = std::max(CellMap::kUnresolved * end, floor);
+    const double step = step_of(end, open, floor);
     return scored(store, [&](size_t i) -> std::optional<double> {
       const double over = widest(store.bounds(i)) - step;
       const double area = store.share(i) * areas.of_face[store.face(i)];
@@ -125,7 +141,10 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const Surv
   CellMap map;
   map.unit = pair.frame.length_down(1);
   map.least = least_width(pair);
-  map.slack = pair.frame.length_up(pair.displacement);
+  // What is open is told by each cell's width, so that such cells are no better known than they
+  // are.
+  const double open = pair.frame.to_frame(open_of(pair));
+  map.slack = pair.frame.length_up(std::max(pair.displacement - open, 0.0));
   if (options.max_distance) map.max_distance = typed_length(*options.max_distance);
   const auto mean = [&](size_t i) { return static_cast<double>(estimates.of(i).mean); };
   map.bar = options.map->bar ? *options.map->bar
@@ -138,7 +157,7 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const Surv
       map.cells[i] = {.corners = {c.x, c.y, c.z, c.w},
                       .face = store.face(i),
                       .estimate = estimates.of(i).corners,
-                      .width = static_cast<float>(widest(store.bounds(i))),
+                      .width = static_cast<float>(widest(store.bounds(i)) + open),
                       .share = static_cast<float>(area / areas.whole)};
     }
   });
@@ -150,11 +169,12 @@ void add_sides(std::span<const CellSide> sides, CellMap& map) {
   for (size_t i = 0; i < map.cells.size(); ++i) map.cells[i].side = sides[i].side;
 }
 
-bool may_have_cheap_sides(const SurveyOptions& options, const Mesh& b) {
+bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair) {
   constexpr size_t kFewFaces = 50'000;
   const bool is_asked = options.map && options.map->sides_if_cheap && !options.is_signed;
-  return is_asked && !options.sided && b.faces.size() <= kFewFaces && !b.are_points &&
-         Shells::edges_of(b).open == 0;
+  const Mesh& b = pair.b;
+  return is_asked && !options.sided && open_of(pair) == 0 && b.faces.size() <= kFewFaces &&
+         !b.are_points && Shells::edges_of(b).open == 0;
 }
 
 void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const GoesOn& goes_on,

@@ -22,8 +22,9 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const Surv
 /// Adds the sides of the survey's cells, in their order, to a map of all of them.
 void add_sides(std::span<const CellSide> sides, CellMap& map);
 
-/// Whether MapOptions::sides_if_cheap asks for sides of this B: it is small, and has no open edge.
-bool may_have_cheap_sides(const SurveyOptions& options, const Mesh& b);
+/// Whether MapOptions::sides_if_cheap asks for sides of this B: it is small, has no open edge, and
+/// neither mesh stands for any triangulation of its polygons.
+bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair);
 /// Adds sides to a map of all cells, where B has an inside that is proven and `goes_on` does not
 /// end the search. Cells that are so near that they look like nought have none.
 void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const GoesOn& goes_on,

@@ -358,7 +358,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     check_shares(options.percentiles);
     SurveyedPair pair = on_device;
     pair.farthest = std::min(pair.farthest, options.upper);
-    const bool is_cheap = may_have_cheap_sides(options, pair.b);
+    const bool is_cheap = may_have_cheap_sides(options, pair);
     Bounding bounding(pair, bound, options, finds_sides(options) || is_cheap);
     std::optional<SidedCells> sided = sided_cells(pair, options, bounding);
     const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;

@@ -436,6 +436,13 @@ TEST_CASE("coverage: how much of B is far from A, where both ways are surveyed")
   CHECK(coverage({whole, whole, "--symmetric", "--stats", "--json"}) == 0);
 }
 
+TEST_CASE("an option that is gone is refused by its name, with what to do instead") {
+  check_refused({"doctor", "--device-report", "x.json"}, 2,
+                "--device-report is gone: 'doctor --json=FILE'");
+  check_refused({"demo", "--image", "x.png", "--field-by", "faces"}, 2,
+                "--field-by is gone: leave it out");
+}
+
 TEST_CASE("doctor lists devices and passes its own check") {
   const Outcome outcome = run({"doctor"});
   CAPTURE(outcome.err);

@@ -417,6 +417,21 @@ TEST_CASE("--polygons any answers for every triangulation, and not for figures o
   CHECK(open.out.find("; no smaller --tol helps: a surface is known to within 0.101") !=
         std::string::npos);
   CHECK(run({"gate", bent, bent, "--max", "0.3abs", "--polygons", "any"}).exit_code == 0);
+  // The picture is a map by cells, and what the polygons leave open is not resolved.
+  const auto unresolved = [](const Words& words) {
+    const Outcome drawn = run(words);
+    CAPTURE(drawn.err);
+    REQUIRE((drawn.exit_code == 0 || drawn.exit_code == 3));
+    return Json::parse(drawn.out)["directions"][0]["map"]["unresolved"].get<double>();
+  };
+  const Words drawing = {"--json", "--image", folder() / "bent.png"};
+  const std::string far = write_file("far.obj", "v 0 0 9\nv 1 0 9\nv 1 1 9\nv 0 1 9\nf 1 2 3 4\n");
+  const std::string flat =
+      write_file("flat.obj", "v 0 0 0\nv 1 0 0.001\nv 1 1 0\nv 0 1 0.001\nf 1 2 3 4\n");
+  const Words any = {"--polygons", "any"};
+  CHECK(unresolved(Words{"distance", flat, flat} + any + drawing) == doctest::Approx(1));
+  CHECK(unresolved(Words{"distance", flat, far} + any + drawing) == 0);
+  CHECK(unresolved(Words{"distance", flat, flat} + drawing) == 0);
   for (const Words& more : {Words{"--stats"}, Words{"--report", folder() / "bent.html"},
                             Words{"--certificate", folder() / "bent.vhc"}}) {
     const Outcome refused = run(pair + more);

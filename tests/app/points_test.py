@@ -267,8 +267,7 @@ class Points(unittest.TestCase):
                 true = kept[min(math.ceil(one["share"] * len(kept) - 1e-9), len(kept)) - 1]
                 self.assertLessEqual(one["distance"]["lower"], true + 1e-12)
                 self.assertGreaterEqual(one["distance"]["upper"], true - 1e-12)
-        for words, what in ((["--stats", "--signed"], "no --area, no sides"), ([], "ask for --stats, --bands, --image or --report"),
-                            (["--image", "x.png", "--field-by", "faces"], "leave out --field-by")):
+        for words, what in ((["--stats", "--signed"], "no --area, no sides"), ([], "ask for --stats, --bands, --image or --report")):
             done = self.run_here(PROGRAM, "distance", "a.ply", "b.ply", "--points", "a", "--max-distance", "1abs", *words)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(what, done.stderr)

@@ -332,7 +332,7 @@ class See(unittest.TestCase):
                              (["--image", "o.png", "--range", "0.5mm,0"], "--range '0.5mm,0': expected the shorter length first"),
                              (["--image", "o.png", "--range", "1in,3mm", "--unit", "mm"], "--range '1in,3mm': expected the shorter length first"),
                              (["--image", "o.png", "--range", "9mm,1%", "--unit", "mm"], "--range '9mm,1%': expected the shorter length first"),
-                             (["--image", "o.png", "--range", "9mm,1%", "--unit", "mm", "--field-by", "faces"], "--range '9mm,1%'"),
+                             (["--image", "o.png", "--range", "9mm,1%", "--unit", "mm"], "--range '9mm,1%'"),
                              (["--image", "o.png", "--up", "x"], "--up"), (["--bands", "0.1"], "--bands"),
                              (["--field", "missing/out.ply"], "--field")):
             with self.subTest(words):

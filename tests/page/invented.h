@@ -216,8 +216,8 @@ struct Invented {
   }
 
   PageContents contents() const {
-    PageContents out{&answer, {drawn(false), has_statistics ? &statistics_a : nullptr, picture}};
-    if (answer.b_to_a) out.b_to_a.emplace(PageDirection{drawn(true), nullptr, picture});
+    PageContents out{&answer, {drawn(false), picture}};
+    if (answer.b_to_a) out.b_to_a.emplace(PageDirection{drawn(true), picture});
     return out;
   }
 
@@ -227,6 +227,7 @@ struct Invented {
         .mesh = back ? b : a, .field = back ? field_b : field_a, .interval = {r.lower, r.upper}};
     out.unit = answer.unit;
     out.back = back;
+    if (!back && has_statistics) out.statistics = &statistics_a;
     if (answer.max) out.limit = answer.max->limit;
     if (has_maps) out.map = back ? &map_b : &map_a;
     if (r.has_witness) out.witness = Witness{r.witness_a, r.witness_b, deviation_of(answer, r)};

@@ -40,32 +40,6 @@ TEST_CASE("the maps begin and end as published, and rise in lightness") {
 
 TEST_CASE("between two steps a length has the upper one's colour") {
   CHECK(map_colour(ColourMap::kViridis, 1e-9) == map_colour(ColourMap::kViridis, 1 / 255.0));
-  Sample s;
-  s.picture.interval = {1, 1};
-  const Scale smooth(s.picture, {});
-  CHECK(smooth.colour(2) == map_colour(ColourMap::kViridis, 1));
-  CHECK(smooth.colour(-1) == map_colour(ColourMap::kViridis, 0));
-  PictureOptions options;
-  options.bands = 2;
-  const Scale steps(s.picture, options);
-  CHECK(steps.colour(0.5) == steps.colour(0.1));  // an edge is the lower band's
-  CHECK(steps.colour(0.5) != steps.colour(0.5000001));
-}
-
-TEST_CASE("faces are counted by what is known of them") {
-  Sample s;
-  const double inf = std::numeric_limits<double>::infinity();
-  s.field = {{0, 0, 2, 0}, {1, 3, 4, inf}};
-  PictureOptions options;
-  options.range = Enclosure{0, 3};
-  FaceCounts counts = count_faces(s.picture, Scale(s.picture, options));
-  CHECK(counts.above == 1);
-  CHECK(counts.unbounded == 1);
-  s.picture.limit = Limit{1, 1};
-  counts = count_faces(s.picture, Scale(s.picture, options));
-  CHECK(counts.within == 1);
-  CHECK(counts.beyond == 1);
-  CHECK(counts.undecided == 2);
 }
 
 TEST_CASE("ticks are round numbers within the range") {

@@ -1,8 +1,10 @@
 // An answer's JSON, read back: byte for byte what was written, and nothing that was changed since.
 #include <doctest/doctest.h>
 
+#include <cstdlib>
 #include <functional>
 #include <limits>
+#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -269,6 +271,26 @@ TEST_CASE("an answer that was read has what JSON has of it") {
   CHECK(read.inputs[0].notes == surveyed().inputs[0].notes);
   CHECK(read.a_to_b.witness_a.file_face == 7);
   CHECK(answer_from_json(to_json(gate("0.2mm", 0.2, 0.15))).notes == distance().notes);
+}
+
+// A decimal that reads as the same double may lie on either side of it: all digits are compared, as
+// texts of numbers with as many digits before the point.
+TEST_CASE("the decimals beside hexadecimal ends are rounded outward") {
+  const std::regex end(
+      "\"([a-z_]*)(lower|upper)\":(0[.][0-9]+),\"[a-z_]*_hex\":\"(0x[0-9a-fp.+-]+)\"");
+  size_t inexact = 0;
+  for (const Answer& answer : all_kinds()) {
+    const std::string json = to_json(answer);
+    for (std::sregex_iterator at(json.begin(), json.end(), end), none; at != none; ++at) {
+      const std::string written = (*at)[3];
+      const std::string exact =
+          decimal(std::strtod((*at)[4].str().c_str(), nullptr), 800, Rounding::kDown);
+      CAPTURE((*at)[0].str());
+      CHECK(((*at)[2] == "lower" ? written <= exact : written >= exact));
+      inexact += written != exact ? 1 : 0;
+    }
+  }
+  CHECK(inexact > 10);
 }
 
 TEST_CASE("failures are read back") {

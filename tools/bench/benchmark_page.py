@@ -16,14 +16,20 @@ import statistics
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tools/bench"))
-from benchmark_report import percentile  # noqa: E402  a neighbour's page
-
 PAGE = ROOT / "docs/benchmarks.md"
 IMAGES = ROOT / "docs/images"
 FAMILIES = {"tetwild": "TetWild", "decimation": "decimation", "envelope": "envelope", "smooth": "smoothed"}
 FAMILY_COLOURS = {"tetwild": "#2a6fb0", "decimation": "#d1782a", "envelope": "#3a9a5b", "smooth": "#8d5fb5"}
 PAYS, COSTS, NEITHER = "#2a6fb0", "#d1782a", "#9a9a9a"
+
+
+def percentile(values, p):
+    """Linear between closest ranks."""
+    ordered = sorted(values)
+    at = (len(ordered) - 1) * p / 100
+    low = math.floor(at)
+    high = min(low + 1, len(ordered) - 1)
+    return ordered[low] + (ordered[high] - ordered[low]) * (at - low)
 
 
 def rows(path):

@@ -1,11 +1,3 @@
-// Bounds cells and faces of thousands of small, hard, generated pairs on one device, and holds them
-// against closest points and an independent solver in double precision, with a margin for its
-// rounding. It prints one line for each violation, with the options that repeat it, and a summary.
-//
-//   vkh_cell_sweep [--count N] [--first I] [--seed S] [--cells N] [--device D] [--spoil X]
-//
-// Exit code 1 for any violation. Pair i depends on the seed and i alone.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,20 +6,14 @@
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/cell_check.h"
 #include "tests/verification/oracle/reference_solver.h"
+#include "tools/bench/sweep.h"
 #include "vkhausdorff/solver.h"
 #include "vkhausdorff/survey.h"
 
+namespace vkh::bench {
 namespace {
 
-using namespace vkh;
 using namespace vkh::test;
-
-struct Arguments {
-  uint64_t count = 1000, first = 0, seed = 1;
-  size_t cells = 40;
-  std::string device;
-  double spoil = 0;
-};
 
 struct Totals {
   CellTally cells;
@@ -66,7 +52,7 @@ uint64_t wrong_faces(const MeshPair& pair, const Field& field, int exponent, dou
   return wrong;
 }
 
-void sweep_pair(Solver& solver, const Arguments& args, uint64_t i, Totals& totals) {
+void sweep_pair(Solver& solver, const SweepOptions& args, uint64_t i, Totals& totals) {
   const size_t families = family_names().size();
   const size_t family = i % families;
   const HardPair hard = hard_pair(family, args.seed * 1000003 + i);
@@ -100,7 +86,9 @@ void sweep_pair(Solver& solver, const Arguments& args, uint64_t i, Totals& total
       static_cast<unsigned long long>(tally.reached));
 }
 
-int sweep(const Arguments& args) {
+}  // namespace
+
+int sweep_cells(const SweepOptions& args) {
   Device device({.selector = args.device});
   Solver solver(device);
   Totals totals;
@@ -120,23 +108,4 @@ int sweep(const Arguments& args) {
   return totals.pairs_wrong > 0 ? 1 : 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Arguments args;
-  CLI::App app("Bounds of cells and faces of generated pairs, against double precision.",
-               "vkh_cell_sweep");
-  app.add_option("--count", args.count, "Pairs");
-  app.add_option("--first", args.first, "Number of the first pair");
-  app.add_option("--seed", args.seed, "Of the whole sweep");
-  app.add_option("--cells", args.cells, "Random cells of each pair");
-  app.add_option("--device", args.device, "As for vkhausdorff");
-  app.add_option("--spoil", args.spoil, "Narrow faces' bounds by so much: the sweep must see it");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return sweep(args);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "vkh_cell_sweep: %s\n", error.what());
-    return 2;
-  }
-}
+}  // namespace vkh::bench

@@ -4,14 +4,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  after the choice of a back end without a display
 
-# The same measurements give the same files.
-matplotlib.rcParams["svg.hashsalt"] = "vkhausdorff"
-
 
 def save(figure, folder, name):
     figure.tight_layout()
     figure.savefig(folder / f"{name}.png", dpi=120, metadata={"Software": None})
-    figure.savefig(folder / f"{name}.svg", metadata={"Date": None})
     plt.close(figure)
 
 

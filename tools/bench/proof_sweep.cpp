@@ -1,14 +1,3 @@
-// Certificates of thousands of small, hard, generated pairs, each given to a checker that knows
-// nothing of how they came about: every one must be accepted. Runs differ in preset, switches,
-// workspace, tolerance, direction and limit, and in the limits that end them and the proof. It
-// prints one line for each certificate that is not accepted, with the options that repeat it, and a
-// summary.
-//
-//   vkh_proof_sweep --check PROGRAM [--count N] [--first I] [--seed S] [--device D] [--spoil X]
-//
-// --check: vkh_check, or another program that takes a certificate and two meshes. Exit code 1 if
-// one is not accepted. Pair i depends on the seed and i alone.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -19,20 +8,15 @@
 #include <random>
 
 #include "tests/shapes/hard_pairs.h"
+#include "tools/bench/sweep.h"
 #include "vkhausdorff/certificate.h"
 #include "vkhausdorff/sha256.h"
 #include "vkhausdorff/solver.h"
 
+namespace vkh::bench {
 namespace {
 
-using namespace vkh;
 using namespace vkh::test;
-
-struct Arguments {
-  uint64_t count = 1000, first = 0, seed = 1;
-  std::string check, device;
-  double spoil = 0;
-};
 
 struct Totals {
   uint64_t certificates = 0, refused = 0, raised = 0;
@@ -107,7 +91,7 @@ struct Files {
 
 class Sweep {
  public:
-  Sweep(Solver& solver, const Arguments& args, const std::filesystem::path& folder)
+  Sweep(Solver& solver, const SweepOptions& args, const std::filesystem::path& folder)
       : solver_(solver),
         args_(args),
         files_{folder / "a.ply", folder / "b.ply", folder / "ab.vhc"},
@@ -170,14 +154,14 @@ class Sweep {
   }
 
   Solver& solver_;
-  const Arguments& args_;
+  const SweepOptions& args_;
   Files files_;
   std::string command_;
   Totals totals_;
 };
 
 /// A folder of this process's own.
-std::filesystem::path new_folder(const Arguments& args) {
+std::filesystem::path new_folder(const SweepOptions& args) {
   std::random_device random;
   for (;;) {
     std::filesystem::path folder =
@@ -190,7 +174,7 @@ std::filesystem::path new_folder(const Arguments& args) {
 /// Prints the progress, at most every ten seconds.
 class Pulse {
  public:
-  void operator()(uint64_t done, const Arguments& args) {
+  void operator()(uint64_t done, const SweepOptions& args) {
     const Clock::time_point now = Clock::now();
     if (now < last_ + std::chrono::seconds(10)) return;
     last_ = now;
@@ -203,7 +187,9 @@ class Pulse {
   Clock::time_point last_ = Clock::now();
 };
 
-int sweep(const Arguments& args) {
+}  // namespace
+
+int sweep_proofs(const SweepOptions& args) {
   const std::filesystem::path folder = new_folder(args);
   Device device({.selector = args.device});
   Solver solver(device);
@@ -229,22 +215,4 @@ int sweep(const Arguments& args) {
   return t.refused > 0 ? 1 : 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Arguments args;
-  CLI::App app("Certificates of generated pairs, each given to a checker.", "vkh_proof_sweep");
-  app.add_option("--check", args.check, "The checker")->required();
-  app.add_option("--count", args.count, "Pairs");
-  app.add_option("--first", args.first, "Number of the first pair");
-  app.add_option("--seed", args.seed, "Of the whole sweep");
-  app.add_option("--device", args.device, "As for vkhausdorff");
-  app.add_option("--spoil", args.spoil, "Claim an upper bound that is smaller by so much");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return sweep(args);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "vkh_proof_sweep: %s\n", error.what());
-    return 2;
-  }
-}
+}  // namespace vkh::bench

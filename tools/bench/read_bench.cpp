@@ -3,10 +3,9 @@
 // longest time between two of a reader's checks whether to go on. Every run has to give the same
 // mesh. With --together all files are read at once, as the program reads A and B.
 //
-//   vkh_read_bench FILE... [--threads 1,2,4,8,16] [--runs 5] [--together]
-//   vkh_read_bench --make FORMAT --faces N FILE    a wavy grid, as ply, ply-ascii, stl, stl-ascii,
+//   vkh_bench read FILE... [--threads 1,2,4,8,16] [--runs 5] [--together]
+//   vkh_bench read --make FORMAT --faces N FILE    a wavy grid, as ply, ply-ascii, stl, stl-ascii,
 //                                                  obj or off
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -17,11 +16,13 @@
 #include <fstream>
 #include <future>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "host/base/hash_index.h"
+#include "tools/bench/bench.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/mesh_io.h"
 
@@ -289,7 +290,7 @@ bool time_files(const std::vector<std::string>& files, const Arguments& argument
                 bytes / least / 1e6, static_cast<double>(peak) / bytes, 1000 * silence);
     std::fflush(stdout);
   }
-  if (!same) std::fprintf(stderr, "vkh_read_bench: two runs gave different meshes\n");
+  if (!same) std::fprintf(stderr, "vkh_bench: two runs gave different meshes\n");
   return same;
 }
 
@@ -306,23 +307,16 @@ int run(const Arguments& arguments) {
 }
 
 }  // namespace
-}  // namespace vkh::bench
 
-int main(int argc, char** argv) {
-  vkh::bench::Arguments arguments;
-  CLI::App app("Times the reading of mesh files");
-  app.add_option("FILE", arguments.files)->required();
-  app.add_option("--threads", arguments.threads, "numbers of threads; 0: one a core")
-      ->delimiter(',');
-  app.add_option("--runs", arguments.runs)->check(CLI::PositiveNumber);
-  app.add_flag("--together", arguments.together, "all files at once");
-  app.add_option("--make", arguments.format, "write a file of this format instead");
-  app.add_option("--faces", arguments.faces, "of the file that is written");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return vkh::bench::run(arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "vkh_read_bench: %s\n", error.what());
-    return 2;
-  }
+Measure add_read(CLI::App& app) {
+  const auto args = std::make_shared<Arguments>();
+  app.add_option("FILE", args->files)->required();
+  app.add_option("--threads", args->threads, "numbers of threads; 0: one a core")->delimiter(',');
+  app.add_option("--runs", args->runs)->check(CLI::PositiveNumber);
+  app.add_flag("--together", args->together, "all files at once");
+  app.add_option("--make", args->format, "write a file of this format instead");
+  app.add_option("--faces", args->faces, "of the file that is written");
+  return [args] { return run(*args); };
 }
+
+}  // namespace vkh::bench

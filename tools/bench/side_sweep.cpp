@@ -1,13 +1,3 @@
-// Holds the sides of a pair's cells against exact integers, and signed figures against area samples
-// with exact parity. It prints one line, of tab-separated columns, and exits with 1 for a wrong
-// side.
-//
-//   vkh_side_sweep A B [--effort N] [--cells N] [--samples N] [--device D] [--head]
-//
-// Points of cells are judged by winding numbers, in integers, where B has a proven inside,
-// otherwise by the planes of all faces that are exactly closest. A figure is counted as off only
-// where it is farther from the samples' than five of their standard errors.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -21,21 +11,16 @@
 #include "host/survey/signed_figures.h"
 #include "tests/shapes/shapes.h"
 #include "tests/verification/oracle/exact_side.h"
+#include "tools/bench/sweep.h"
 #include "vkhausdorff/mesh_io.h"
 #include "vkhausdorff/solver.h"
 #include "vkhausdorff/survey.h"
 
+namespace vkh::bench {
 namespace {
 
-using namespace vkh;
 using namespace vkh::test;
 using glm::dvec3;
-
-struct Arguments {
-  std::string a, b, device;
-  size_t effort = 200'000, cells = 5000, samples = 0;
-  bool head = false;
-};
 
 struct Checked {
   uint64_t cells = 0, with_side = 0, points = 0, wrong = 0, skipped = 0;
@@ -166,7 +151,7 @@ int figures_off(const SignedFigures& s, const std::vector<double>& all) {
   return off;
 }
 
-double survey_ms(Solver& solver, const Mesh& a, const Mesh& b, const Arguments& args,
+double survey_ms(Solver& solver, const Mesh& a, const Mesh& b, const SweepOptions& args,
                  bool is_signed, SurveyResult& result) {
   SurveyOptions survey;
   survey.faces = survey.statistics = true;
@@ -179,7 +164,7 @@ double survey_ms(Solver& solver, const Mesh& a, const Mesh& b, const Arguments& 
 }
 
 // Halves the largest cells until there are so many, and tells the sides of all.
-Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const Arguments& args) {
+Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const SweepOptions& args) {
   Checked checked;
   SolveOptions options;
   options.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
@@ -213,7 +198,9 @@ Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const Arguments
 
 double percent_up(const Enclosure& share) { return 100 * share.upper; }
 
-int sweep(const Arguments& args) {
+}  // namespace
+
+int sweep_sides(const SweepOptions& args) {
   if (args.head)
     std::printf(
         "pair\tfaces_a\tfaces_b\tinside\tcells\twith_side\tpoints\tskipped\twrong\tover\tunder\t"
@@ -246,23 +233,4 @@ int sweep(const Arguments& args) {
   return checked.wrong > 0 || off > 0 ? 1 : 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  Arguments args;
-  CLI::App app("Sides of a pair's cells, against exact integers.", "vkh_side_sweep");
-  app.add_option("a", args.a, "Mesh file")->required();
-  app.add_option("b", args.b, "Mesh file")->required();
-  app.add_option("--effort", args.effort, "Of the surveys; the cells checked are half as many");
-  app.add_option("--cells", args.cells, "Random cells that are checked");
-  app.add_option("--samples", args.samples, "Area samples for the figures");
-  app.add_option("--device", args.device, "As for vkhausdorff");
-  app.add_flag("--head", args.head, "Print the columns' names first");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return sweep(args);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "vkh_side_sweep: %s\n", error.what());
-    return 2;
-  }
-}
+}  // namespace vkh::bench

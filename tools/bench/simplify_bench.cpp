@@ -1,18 +1,19 @@
 // Faces that simplify keeps of a mesh, beside meshoptimizer by itself: with the largest target
 // error of 40 geometric steps whose result passes, and with the limit as its target error.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "host/simplify/collapse.h"
 #include "host/simplify/judge.h"
+#include "tools/bench/bench.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/mesh_io.h"
 
-namespace vkh {
+namespace vkh::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -92,34 +93,33 @@ void measure(Solver& solver, const std::string& file, const Work& work) {
   }
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{"Faces that simplify keeps, beside meshoptimizer by itself; CSV"};
+struct Arguments {
   std::vector<std::string> files;
   Work work{.shares = {1e-4, 1e-3, 1e-2}};
   std::string device;
-  app.add_option("FILE", files, "Meshes")->required();
-  app.add_option("--shares", work.shares, "Limits, as shares of the diagonal")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  app.add_flag("--only-ours", work.only_ours, "Without meshoptimizer by itself");
-  app.add_option("--device", device, "An index, gpu, cpu or part of a name");
-  CLI11_PARSE(app, argc, argv);
-  Device on({.selector = device});
+};
+
+int run(const Arguments& args) {
+  Device on({.selector = args.device});
   Solver solver(on);
-  std::printf("file,faces_a,share,faces,upper_of_limit,tried,s%s\n",
-              work.only_ours ? "" : ",meshopt_faces,meshopt_s,of_meshopt,told_faces,told_of_limit");
-  for (const std::string& file : files) measure(solver, file, work);
+  std::printf(
+      "file,faces_a,share,faces,upper_of_limit,tried,s%s\n",
+      args.work.only_ours ? "" : ",meshopt_faces,meshopt_s,of_meshopt,told_faces,told_of_limit");
+  for (const std::string& file : args.files) measure(solver, file, args.work);
   return 0;
 }
 
 }  // namespace
-}  // namespace vkh
 
-int main(int argc, char** argv) {
-  try {
-    return vkh::run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "vkh_simplify_bench: %s\n", error.what());
-    return 1;
-  }
+Measure add_simplify(CLI::App& app) {
+  const auto args = std::make_shared<Arguments>();
+  app.add_option("FILE", args->files, "Meshes")->required();
+  app.add_option("--shares", args->work.shares, "Limits, as shares of the diagonal")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  app.add_flag("--only-ours", args->work.only_ours, "Without meshoptimizer by itself");
+  app.add_option("--device", args->device, "An index, gpu, cpu or part of a name");
+  return [args] { return run(*args); };
 }
+
+}  // namespace vkh::bench

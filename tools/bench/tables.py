@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The paper's Tables 1-4 and Figs. 6-8 from what vkh_bench measured, as Markdown, CSV, PNG and SVG.
+"""The paper's Tables 1-4 and Figs. 6-8 from what vkh_bench measured, as Markdown, CSV and PNG.
 
 usage: tools/bench/tables.py --bench BENCH.csv... [--ablations ABLATIONS.csv...] [--peer PEER.csv] [--memory MEMORY.csv...]
                        --out FOLDER [--time solve_ms]

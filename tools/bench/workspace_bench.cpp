@@ -2,11 +2,10 @@
 // in the recommended one: four families of pairs, whose A has 1 to 100,000 faces. Runs alternate
 // between the sizes; the least of their times on the device counts, the BVH apart.
 //
-//   vkh_workspace_bench [--device D] [--faces N] [--runs 5] [--tol 1e-6] [--candidates 256,1024]
+//   vkh_bench workspace [--device D] [--faces N] [--runs 5] [--tol 1e-6] [--candidates 256,1024]
 //                       [--gpu-profile]
 //
 // With --gpu-profile a CPU device runs the waves that a GPU runs.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +16,7 @@
 
 #include "engine/vkhausdorff.h"
 #include "tests/shapes/shapes.h"
+#include "tools/bench/bench.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/solver.h"
 
@@ -125,16 +125,7 @@ void print(const Pair& pair, const std::vector<Size>& sizes) {
   std::fflush(stdout);
 }
 
-int run(int argc, char** argv) {
-  Arguments arguments;
-  CLI::App app("what a smaller workspace costs", "vkh_workspace_bench");
-  app.add_option("--device", arguments.device);
-  app.add_option("--faces", arguments.faces, "the most faces of A");
-  app.add_option("--runs", arguments.runs);
-  app.add_option("--tol", arguments.tolerance);
-  app.add_option("--candidates", arguments.candidates)->delimiter(',');
-  app.add_flag("--gpu-profile", arguments.gpu_profile, "the waves of a GPU, on any device");
-  CLI11_PARSE(app, argc, argv);
+int run(const Arguments& arguments) {
   Device device({.selector = arguments.device});
   const Context context = context_on(device, arguments);
   Solver solver(device);
@@ -148,11 +139,16 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace vkh::bench
 
-int main(int argc, char** argv) try {
-  return vkh::bench::run(argc, argv);
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "vkh_workspace_bench: %s\n", error.what());
-  return 1;
+Measure add_workspace(CLI::App& app) {
+  const auto args = std::make_shared<Arguments>();
+  app.add_option("--device", args->device);
+  app.add_option("--faces", args->faces, "the most faces of A");
+  app.add_option("--runs", args->runs);
+  app.add_option("--tol", args->tolerance);
+  app.add_option("--candidates", args->candidates)->delimiter(',');
+  app.add_flag("--gpu-profile", args->gpu_profile, "the waves of a GPU, on any device");
+  return [args] { return run(*args); };
 }
+
+}  // namespace vkh::bench

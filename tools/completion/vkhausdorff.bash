@@ -4,7 +4,7 @@ _vkhausdorff() {
   local commands="distance gate metrics batch merge simplify demo doctor help"
   local engine="--memory --waves --preset --enable --disable --no-cache --help --help-all" search tables="--out --csv --junit"
   search="--device --time $engine"
-  local look="--view --field-by --up --size --map --range --steps"
+  local look="--view --up --size --map --range --steps"
   local outputs="--json --verbose --verify --tol --symmetric --stats --signed --bands --max-distance --field-tol --effort --field --image --report --title --figures-csv --points-out $look"
   local files="--unit --unit-a --unit-b --transform --scale --align --max-input --polygons --bodies --points"
   local options="--help --help-all --version"
@@ -17,7 +17,6 @@ _vkhausdorff() {
     --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu all" -- "$current"); return ;;
     --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
     --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
-    --field-by) mapfile -t COMPREPLY < <(compgen -W "cells faces" -- "$current"); return ;;
     --figures) mapfile -t COMPREPLY < <(compgen -W "hausdorff hd_p hd_p_pooled masd assd rms chamfer_l1 chamfer_l2 nsd precision recall f1 normal_consistency precision_normals recall_normals f1_normals" -- "$current"); return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
@@ -39,7 +38,7 @@ _vkhausdorff() {
     simplify) options="$search --json --max --out --one-way --lock-borders --levels --ratio --certificate --unit --max-input --polygons --bodies" ;;
     merge) options="$tables --list --reproducible --help --help-all" ;;
     demo) options="$search $outputs" ;;
-    doctor) options="--device --device-report --help --help-all" ;;
+    doctor) options="--device --json --help --help-all" ;;
     help) options="$commands" ;;
   esac
   if [[ $current == -* || $command == help ]]; then

@@ -112,7 +112,6 @@ class Tables(unittest.TestCase):
             self.skipTest("no matplotlib here (tools/setup --benchmarks): plots not tested")
         for figure in ("fig6", "fig7", "fig8"):
             self.assertGreater((self.folder / "out" / f"{figure}.png").stat().st_size, 1000)
-            self.assertTrue((self.folder / "out" / f"{figure}.svg").read_text().rstrip().endswith("</svg>"))
             self.assertIn(f"{figure}.png", self.page())
 
 

@@ -4,8 +4,9 @@
 //
 // FOLDER gets the meshes (binary PLY), list.jsonl for `vkhausdorff batch`, and moves.csv: id, the
 // id of the pair that was moved, and the exponent of the power of two that its distance is
-// multiplied by. tools/bench/check_moved.py holds results against those of LIST. A shift that would
-// not be exact is left out. Exit code 2 for a wrong command or list, 6 for a failed write.
+// multiplied by. tools/bench/generated.py --what moved holds results against those of LIST. A shift
+// that would not be exact is left out. Exit code 2 for a wrong command or list, 6 for a failed
+// write.
 #include "tools/pairs/moved.h"
 
 #include <CLI/CLI.hpp>

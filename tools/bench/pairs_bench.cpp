@@ -5,19 +5,20 @@
 // differ by a bit, the exit code is 1. A run that does not close within its limits is not repeated,
 // and counted; then the exit code is 3.
 //
-//   vkh_bench MANIFEST.csv [--presets
+//   vkh_bench pairs MANIFEST.csv [--presets
 //   default,paper,baseline-gpu,-sort,+packet,paper-thin,-u3@64MiB]
 //             [--filter TEXT] [--max-faces N] [--repeat N] [--tol T] [--device D] [--time SECONDS]
 //             [--memory BYTES] [--sort-from N] [--disable a,b] [--enable a,b] [--plain]
 //             [--together N] [--not-robust] [--not-mapped]
 //
 // With --together, the default preset alone: each pair alone and N side by side, a row per group.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <memory>
 
 #include "host/answer/options.h"
+#include "tools/bench/bench.h"
 #include "tools/bench/manifest.h"
 #include "tools/bench/table.h"
 #include "tools/bench/together.h"
@@ -28,7 +29,7 @@
 namespace vkh::bench {
 namespace {
 
-enum ExitCode { kExitClosed = 0, kExitWrong = 1, kExitUsage = 2, kExitNotClosed = 3 };
+enum ExitCode { kExitClosed = 0, kExitWrong = 1, kExitNotClosed = 3 };
 
 struct Arguments {
   std::string manifest, device, memory;
@@ -172,38 +173,31 @@ ExitCode run(Arguments& args) {
 }
 
 }  // namespace
-}  // namespace vkh::bench
 
-int main(int argc, char** argv) {
-  using namespace vkh::bench;
-  CLI::App app("vkh_bench: the solver's times over a manifest of pairs");
-  Arguments args;
-  args.common.time_limit_s = 60;
-  app.add_option("manifest", args.manifest)->required();
-  CLI::Option* presets = app.add_option("--presets", args.presets,
+Measure add_pairs(CLI::App& app) {
+  const auto args = std::make_shared<Arguments>();
+  args->common.time_limit_s = 60;
+  app.add_option("manifest", args->manifest)->required();
+  CLI::Option* presets = app.add_option("--presets", args->presets,
                                         "default, paper, baseline-gpu; +x, -x, paper-x, x@64MiB")
                              ->delimiter(',');
-  app.add_option("--filter", args.choice.filter);
-  app.add_option("--max-faces", args.choice.max_faces);
-  app.add_option("--repeat", args.repeat)->check(CLI::PositiveNumber);
-  app.add_option("--tol", args.common.tolerance);
-  app.add_option("--device", args.device);
-  app.add_option("--disable", args.common.disabled, "in every preset")->delimiter(',');
-  app.add_option("--enable", args.common.enabled, "in every preset")->delimiter(',');
-  app.add_flag("--plain", args.plain, "nothing certified: what the certificate costs");
-  app.add_flag("--not-robust", args.not_robust, "without robustBufferAccess: what it costs");
-  app.add_flag("--not-mapped", args.not_mapped, "meshes copied from the host: what that costs");
-  app.add_option("--memory", args.memory);
-  app.add_option("--time", args.common.time_limit_s);
-  app.add_option("--together", args.together, "pairs side by side, and each alone")
+  app.add_option("--filter", args->choice.filter);
+  app.add_option("--max-faces", args->choice.max_faces);
+  app.add_option("--repeat", args->repeat)->check(CLI::PositiveNumber);
+  app.add_option("--tol", args->common.tolerance);
+  app.add_option("--device", args->device);
+  app.add_option("--disable", args->common.disabled, "in every preset")->delimiter(',');
+  app.add_option("--enable", args->common.enabled, "in every preset")->delimiter(',');
+  app.add_flag("--plain", args->plain, "nothing certified: what the certificate costs");
+  app.add_flag("--not-robust", args->not_robust, "without robustBufferAccess: what it costs");
+  app.add_flag("--not-mapped", args->not_mapped, "meshes copied from the host: what that costs");
+  app.add_option("--memory", args->memory);
+  app.add_option("--time", args->common.time_limit_s);
+  app.add_option("--together", args->together, "pairs side by side, and each alone")
       ->check(CLI::PositiveNumber)
       ->excludes(presets);
-  app.add_option("--sort-from", args.common.sort_from, "smaller frontiers are not sorted");
-  CLI11_PARSE(app, argc, argv);
-  try {
-    return run(args);
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "vkh_bench: %s\n", e.what());
-    return kExitUsage;
-  }
+  app.add_option("--sort-from", args->common.sort_from, "smaller frontiers are not sorted");
+  return [args] { return run(*args); };
 }
+
+}  // namespace vkh::bench
