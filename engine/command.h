@@ -27,6 +27,7 @@ struct Command {
   // The bindings 0, 1, 2, ...; the slice to fill; the source and target of a copy.
   std::array<Slice<uint32_t>, kMaxBindings> slices;
   uint32_t slice_count = 0;
+  uint32_t written = 0;  // the slices that the kernel may write, as bits (SPIR-V's NonWritable)
   std::array<std::byte, kMaxPushBytes> push;
   uint32_t push_bytes = 0;
   uint32_t groups = 0;        // of a dispatch
@@ -36,14 +37,45 @@ struct Command {
 
 class Binder;  // engine/descriptors.h
 
-// Writes the command, with the barrier that its order requires.
-void write(Binder& binder, const Command& command);
-
 // Commands in their order. A step reaches from one that is kAfterAll to the next.
 using Track = std::vector<Command>;
 
-// Writes the tracks in step: one barrier, then the next step of each. No track may use what another
-// one writes.
-void write_in_step(Binder& binder, const std::vector<Track>& tracks);
+// The barriers of one call, each as narrow as its step allows. The first one waits for everything,
+// and so does one beside a transfer. Between dispatches a barrier is of compute shaders alone; it
+// serves a size that the device reads where a kernel may have written that size since the last
+// barrier that did.
+class Barriers {
+ public:
+  explicit Barriers(Binder& binder) : binder_(binder) {}
+
+  // Writes the command, with the barrier that its order requires. An independent transfer needs one
+  // where the step's own barrier was of compute shaders alone: put it first in its step.
+  void write(const Command& command);
+
+  // Writes the tracks in step: one barrier, then the next step of each. No track may use what
+  // another one writes.
+  void write_in_step(const std::vector<Track>& tracks);
+
+ private:
+  // What a step does besides computing.
+  struct Needs {
+    bool transfers = false;
+    bool fresh_sizes = false;  // it reads one that was written since the last barrier for sizes
+
+    void add(const Needs& other) {
+      transfers = transfers || other.transfers;
+      fresh_sizes = fresh_sizes || other.fresh_sizes;
+    }
+  };
+  Needs needs_of(const Command& command) const;
+  bool is_fresh(const Slice<gpu::Dispatch>& size) const;
+  void write_barrier(const Needs& needs);
+  void write_after_barrier(const Command& command);
+
+  Binder& binder_;
+  bool waits_for_all_ = true;             // the next barrier does
+  bool transfers_wait_ = false;           // the last barrier was one for transfers, too
+  std::vector<Slice<uint32_t>> written_;  // by kernels, since the last barrier for sizes
+};
 
 }  // namespace vkh

@@ -83,7 +83,7 @@ class Recorder {
     put(command);
   }
   // Writes the tracks in step (engine/command.h).
-  void put_in_step(const std::vector<Track>& tracks) { write_in_step(binder_, tracks); }
+  void put_in_step(const std::vector<Track>& tracks) { barriers_.write_in_step(tracks); }
   bool is_wide() const { return context_.limits.wide; }
   bool checks_input() const {
     return gpu::checks_input(context_.limits.switches, context_.limits.wide);
@@ -95,6 +95,14 @@ class Recorder {
   void begin_label(const char* name);
   void end_label();
 
+  // The kernel's bindings that it may write, as bits.
+  template <class K>
+  static constexpr uint32_t written_by() {
+    uint32_t written = 0;
+    for (const Binding& b : K::kBindings) written |= b.read_only ? 0u : 1u << b.binding;
+    return written;
+  }
+
   template <class K, class Given>
   Command command_of(const Given& given) const {
     constexpr uint32_t count = sizeof(K::kBindings) / sizeof(Binding);
@@ -105,6 +113,7 @@ class Recorder {
     // Args is `count` slices in the order of the bindings, which are 0, 1, 2, ...
     std::copy_n(reinterpret_cast<const Slice<uint32_t>*>(&args), count, command.slices.begin());
     command.slice_count = count;
+    command.written = written_by<K>();
     if constexpr (!std::is_same_v<typename K::Push, NoPush>) {
       const typename K::Push& push = given.push;
       static_assert(sizeof(push) <= kMaxPushBytes);
@@ -117,12 +126,13 @@ class Recorder {
     if (track_ != nullptr) {
       track_->push_back(command);
     } else {
-      write(binder_, command);
+      barriers_.write(command);
     }
   }
 
   const VkhContext_T& context_;
   Binder binder_;
+  Barriers barriers_{binder_};
   VkhProfile* profile_ = nullptr;
   Track* track_ = nullptr;
 };
