@@ -1,10 +1,14 @@
-"""A barrier that is left out is noticed: by synchronization validation, of Debian's layer.
+"""A barrier that is left out is noticed, and so is each access that one lacks.
 
 usage: barriers_test.py BUILD
 
-The test layer stands above the validation layer and leaves out one of the engine's barriers,
-another in each run. Not every one is noticed: the layer follows neither reads by an index in a
-shader, nor the size of an indirect dispatch.
+By the test layer: over the engine's tests it follows what commands read and write, sizes of
+indirect dispatches too, and finds no hazard. Each access of a barrier between dispatches alone is
+needed: without it there is one.
+
+By synchronization validation, of Debian's layer: the test layer stands above it and leaves out one
+of the engine's barriers, another in each run. Not every one is noticed: the layer follows neither
+reads by an index in a shader, nor the size of an indirect dispatch.
 """
 
 import os
@@ -19,19 +23,42 @@ TEST = [BUILD / "tests" / "engine_tests", "--source-file=*/kernel_bvh_test.cpp",
 TRIED = range(1, 13)  # of the first BVH
 LEAST = 4             # 8 of 12 with layer 1.3.239
 
+FOLLOWED = ["kernel_bvh_test", "kernel_sort_test", "api_tasks_test", "api_move_test", "api_contract_test",
+            "api_frames_test", "embed_test"]  # whole runs, many at once, moved ones
+
 if not (LAYERS / "VkLayer_khronos_validation.json").exists():
     print("barriers_test: skipped: no Khronos validation layer here")
     sys.exit(77)
 
 
-def run(**environment):
+def run(command=TEST, **environment):
     variables = os.environ | {"VK_LAYER_PATH": f"{BUILD}/layer:{LAYERS}", "VK_INSTANCE_LAYERS": "VK_LAYER_VKH_test",
                               "VKH_VALIDATION": "1"} | environment
-    done = subprocess.run(TEST, env=variables, capture_output=True, text=True, timeout=200)
+    done = subprocess.run(command, env=variables, capture_output=True, text=True, timeout=600)
     return done.returncode, done.stdout + done.stderr
 
 
+def check_accesses(count):
+    """No hazard over the engine's tests, and none of what narrow barriers wait for is dispensable."""
+    files = ",".join(f"*/{name}.cpp" for name in FOLLOWED)
+    code, text = run([BUILD / "tests" / "engine_tests", f"--source-file={files}"], VKH_VALIDATION="0",
+                     VKH_LAYER_HAZARDS="1", VKH_LAYER_KEEP_GOING="1", VKH_LAYER_COUNT=str(count))
+    if code != 0 or "vkh-layer:" in text:
+        sys.exit(f"barriers_test: a hazard, or a test failed: {text[-3000:]}")
+    seen = dict(re.findall(r"^(accesses .*) (\d+)$", count.read_text(), re.M))
+    for access in ("from shaders", "to shaders", "to sizes"):
+        named = int(seen.get(f"accesses narrow {access}", 0))
+        needed = int(seen.get(f"accesses narrow {access} needed", 0))
+        print(f"barriers_test: {needed} of {named} barriers between dispatches need '{access}'")
+        if needed == 0 or needed < named:
+            sys.exit(f"barriers_test: '{access}' is waited for in vain, or by no barrier")
+    for access in ("from transfers", "to transfers"):
+        if int(seen.get(f"accesses {access} needed", 0)) == 0:
+            sys.exit(f"barriers_test: no barrier needs '{access}'")
+
+
 count = BUILD / "barriers.txt"
+check_accesses(count)
 count.unlink(missing_ok=True)
 code, text = run(VKH_LAYER_COUNT=str(count))
 if code != 0 or "SYNC-HAZARD" in text:

@@ -2,6 +2,7 @@
 #include <span>
 #include <vector>
 
+#include "tests/verification/layer/hazards.h"
 #include "tests/verification/layer/limits.h"
 #include "tests/verification/layer/regroup.h"
 #include "tests/verification/layer/rules.h"
@@ -117,19 +118,25 @@ bool fits_heap(uint32_t heap, VkDeviceSize bytes) {
          std::min(local.value_or(UINT64_MAX), settings().limit("heapSize").value_or(UINT64_MAX));
 }
 
-bool keeps_barrier() {
+bool keeps_barrier(VkCommandBuffer commands, const VkDependencyInfo& info) {
   const uint64_t n = count_call("barriers");
-  return n != settings().dropped_barrier;
+  if (n == settings().dropped_barrier) return false;
+  for (const VkMemoryBarrier2& b : std::span(info.pMemoryBarriers, info.memoryBarrierCount))
+    follow_barrier(commands,
+                   {{b.srcStageMask, b.srcAccessMask}, {b.dstStageMask, b.dstAccessMask}});
+  return true;
 }
 
 }  // namespace
 
 void learn(const VkBufferCreateInfo& info, VkBuffer buffer) {
+  follow_buffer(buffer, info.size);
   const std::lock_guard lock(known().mutex);
   known().buffers[number_of(buffer)] = info.size;
 }
 
 void learn(const VkShaderModuleCreateInfo& info, VkShaderModule module) {
+  follow_module(module, {info.pCode, info.codeSize / 4});
   if (!looks_at_shaders()) return;
   const std::lock_guard lock(known().mutex);
   known().modules[number_of(module)].assign(info.pCode, info.pCode + info.codeSize / 4);
@@ -252,35 +259,45 @@ std::optional<VkResult> refusal(fn::CreateComputePipelines, Table&, VkDevice, Vk
 bool allowed(fn::UpdateDescriptorSets, Table&, VkDevice, uint32_t count,
              const VkWriteDescriptorSet* writes, uint32_t, const VkCopyDescriptorSet*) {
   check_writes("vkUpdateDescriptorSets", count, writes);
+  follow_sets({writes, count});
   return true;
 }
 
-bool allowed(fn::CmdPushDescriptorSetKHR, Table&, VkCommandBuffer, VkPipelineBindPoint,
+bool allowed(fn::CmdPushDescriptorSetKHR, Table&, VkCommandBuffer commands, VkPipelineBindPoint,
              VkPipelineLayout, uint32_t, uint32_t count, const VkWriteDescriptorSet* writes) {
   at_most(count, "maxPushDescriptors", "vkCmdPushDescriptorSetKHR");
+  follow_push(commands, {writes, count});
   check_writes("vkCmdPushDescriptorSetKHR", count, writes);
   return true;
 }
 
-bool allowed(fn::CmdDispatch, Table&, VkCommandBuffer, uint32_t x, uint32_t y, uint32_t z) {
+bool allowed(fn::CmdDispatch, Table&, VkCommandBuffer commands, uint32_t x, uint32_t y,
+             uint32_t z) {
   at_most(x, "maxComputeWorkGroupCount0", "vkCmdDispatch");
   at_most(y, "maxComputeWorkGroupCount1", "vkCmdDispatch");
   at_most(z, "maxComputeWorkGroupCount2", "vkCmdDispatch");
+  follow_dispatch(commands);
   return true;
 }
 
-bool allowed(fn::CmdPipelineBarrier, Table&, VkCommandBuffer, VkPipelineStageFlags,
-             VkPipelineStageFlags, VkDependencyFlags, uint32_t, const VkMemoryBarrier*, uint32_t,
-             const VkBufferMemoryBarrier*, uint32_t, const VkImageMemoryBarrier*) {
-  return count_call("plain_barriers") != settings().dropped_plain_barrier;
+bool allowed(fn::CmdPipelineBarrier, Table&, VkCommandBuffer commands, VkPipelineStageFlags from,
+             VkPipelineStageFlags to, VkDependencyFlags, uint32_t count,
+             const VkMemoryBarrier* barriers, uint32_t, const VkBufferMemoryBarrier*, uint32_t,
+             const VkImageMemoryBarrier*) {
+  if (count_call("plain_barriers") == settings().dropped_plain_barrier) return false;
+  for (const VkMemoryBarrier& b : std::span(barriers, count))
+    follow_barrier(commands, {{from, b.srcAccessMask}, {to, b.dstAccessMask}});
+  return true;
 }
 
-bool allowed(fn::CmdPipelineBarrier2, Table&, VkCommandBuffer, const VkDependencyInfo*) {
-  return keeps_barrier();
+bool allowed(fn::CmdPipelineBarrier2, Table&, VkCommandBuffer commands,
+             const VkDependencyInfo* info) {
+  return keeps_barrier(commands, *info);
 }
 
-bool allowed(fn::CmdPipelineBarrier2KHR, Table&, VkCommandBuffer, const VkDependencyInfo*) {
-  return keeps_barrier();
+bool allowed(fn::CmdPipelineBarrier2KHR, Table&, VkCommandBuffer commands,
+             const VkDependencyInfo* info) {
+  return keeps_barrier(commands, *info);
 }
 
 }  // namespace vkh::layer

@@ -163,7 +163,12 @@ constexpr unsigned kCreateDeviceErrors =
   X(UpdateDescriptorSets)            \
   X(CmdPushDescriptorSetKHR)         \
   X(CmdPushConstants)                \
+  X(CmdBindPipeline)                 \
+  X(CmdBindDescriptorSets)           \
   X(CmdDispatch)                     \
+  X(CmdDispatchIndirect)             \
+  X(CmdFillBuffer)                   \
+  X(CmdCopyBuffer)                   \
   X(CmdDispatchBase)                 \
   X(CmdPipelineBarrier)              \
   X(CmdPipelineBarrier2)             \

@@ -1,4 +1,5 @@
 // Objects that are made several at a time, or belong to a pool.
+#include "tests/verification/layer/hazards.h"
 #include "tests/verification/layer/rules.h"
 
 // Parameters are as many as Vulkan has.
@@ -90,8 +91,9 @@ void made(fn::ResetDescriptorPool, Table&, VkDevice, VkDescriptorPool pool,
 }
 
 void made(fn::CreateComputePipelines, Table& table, VkDevice, VkPipelineCache, uint32_t count,
-          const VkComputePipelineCreateInfo*, Allocator, VkPipeline* out) {
+          const VkComputePipelineCreateInfo* infos, Allocator, VkPipeline* out) {
   keep_pipelines(table, count, out);
+  follow_pipelines({infos, count}, out);
 }
 
 void spoil(fn::CreateComputePipelines, VkDevice, VkPipelineCache, uint32_t count,

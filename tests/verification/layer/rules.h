@@ -146,6 +146,21 @@ bool allowed(fn::CmdPipelineBarrier, Table&, VkCommandBuffer, VkPipelineStageFla
              const VkBufferMemoryBarrier*, uint32_t, const VkImageMemoryBarrier*);
 bool allowed(fn::CmdPipelineBarrier2, Table&, VkCommandBuffer, const VkDependencyInfo*);
 bool allowed(fn::CmdPipelineBarrier2KHR, Table&, VkCommandBuffer, const VkDependencyInfo*);
+// hazards.cpp: what the commands of a command buffer read and write.
+void made(fn::BeginCommandBuffer, Table&, VkCommandBuffer commands,
+          const VkCommandBufferBeginInfo*);
+void made(fn::EndCommandBuffer, Table&, VkCommandBuffer commands);
+bool allowed(fn::CmdBindPipeline, Table&, VkCommandBuffer commands, VkPipelineBindPoint,
+             VkPipeline pipeline);
+bool allowed(fn::CmdBindDescriptorSets, Table&, VkCommandBuffer commands, VkPipelineBindPoint,
+             VkPipelineLayout, uint32_t, uint32_t count, const VkDescriptorSet* sets, uint32_t,
+             const uint32_t*);
+bool allowed(fn::CmdDispatchIndirect, Table&, VkCommandBuffer commands, VkBuffer sizes,
+             VkDeviceSize offset);
+bool allowed(fn::CmdFillBuffer, Table&, VkCommandBuffer commands, VkBuffer buffer,
+             VkDeviceSize offset, VkDeviceSize size, uint32_t);
+bool allowed(fn::CmdCopyBuffer, Table&, VkCommandBuffer commands, VkBuffer from, VkBuffer to,
+             uint32_t count, const VkBufferCopy* regions);
 /// The bytes in use by allocations; for the budget of `heapSize`.
 void forget_allocation(uint64_t memory);
 void keep_allocation(VkDevice device, const VkMemoryAllocateInfo& info, uint64_t memory);

@@ -74,6 +74,7 @@ Settings read() {
     refuse("VKH_LAYER_FAIL: '" + variable("VKH_LAYER_FAIL") + "' makes no sense");
   s.dropped_barrier = read_number("VKH_LAYER_DROP_BARRIER");
   s.dropped_plain_barrier = read_number("VKH_LAYER_DROP_PLAIN_BARRIER");
+  s.finds_hazards = !variable("VKH_LAYER_HAZARDS").empty();
   s.log = variable("VKH_LAYER_LOG");
   s.count = variable("VKH_LAYER_COUNT");
   s.keeps_going = !variable("VKH_LAYER_KEEP_GOING").empty();

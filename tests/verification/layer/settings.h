@@ -27,6 +27,7 @@ struct Settings {
   std::vector<Fault> faults;               ///< VKH_LAYER_FAIL
   uint64_t dropped_barrier = 0;            ///< VKH_LAYER_DROP_BARRIER: of synchronization2; 0: none
   uint64_t dropped_plain_barrier = 0;      ///< VKH_LAYER_DROP_PLAIN_BARRIER: vkCmdPipelineBarrier
+  bool finds_hazards = false;              ///< VKH_LAYER_HAZARDS
   std::string log, count;                  ///< VKH_LAYER_LOG, VKH_LAYER_COUNT: files
   bool keeps_going = false;                ///< VKH_LAYER_KEEP_GOING: violations do not abort
   bool regroups = false;                   ///< VKH_LAYER_REGROUP: sums of shaders

@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -31,8 +32,10 @@ enum Op : uint32_t {
   kSpecConstantOp = 52,
   kVariable = 59,
   kDecorate = 71,
+  kMemberDecorate = 72,
   kExecutionModeId = 331
 };
+constexpr uint32_t kNonWritable = 24, kBinding = 33, kStorageBuffer = 12;
 constexpr uint32_t kSpecId = 1, kBuiltIn = 11, kWorkgroupSize = 25, kLocalSize = 17,
                    kLocalSizeId = 38, kWorkgroup = 4;
 
@@ -49,6 +52,18 @@ class Module {
       read(words[at] & 0xffffu, words.subspan(at + 1, length - 1));
       at += length;
     }
+  }
+
+  std::map<uint32_t, bool> writes() {
+    std::map<uint32_t, bool> writes;
+    for (const auto& [variable, pointer] : buffers_) {
+      const uint32_t block = pointee_types_.at(pointer);
+      const size_t members = types_.at(block).second.size();
+      const bool is_read_only =
+          read_only_.contains(variable) || read_only_members_[block].size() == members;
+      writes[bindings_.at(variable)] = !is_read_only;
+    }
+    return writes;
   }
 
   ShaderNeeds needs() const {
@@ -72,6 +87,10 @@ class Module {
     if (op == kExecutionModeId && w[1] == kLocalSizeId) size_ids_.assign(w.begin() + 2, w.end());
     if (op >= kTypeBool && op <= kTypePointer) read_type(op, w);
     if (op >= kConstantTrue && op <= kSpecConstantOp) read_constant(op, w);
+    if (op == kDecorate && w[1] == kBinding) bindings_[w[0]] = w[2];
+    if (op == kDecorate && w[1] == kNonWritable) read_only_.insert(w[0]);
+    if (op == kMemberDecorate && w[2] == kNonWritable) read_only_members_[w[0]].insert(w[1]);
+    if (op == kVariable && w[2] == kStorageBuffer) buffers_[w[1]] = w[0];
     if (op == kVariable && w[2] == kWorkgroup) shared_.push_back(pointee_types_.at(w[0]));
   }
 
@@ -183,6 +202,9 @@ class Module {
   std::vector<uint32_t> size_ids_, shared_;
   uint32_t workgroup_size_ = 0;
   std::map<uint32_t, uint32_t> spec_ids_, pointee_types_;
+  std::map<uint32_t, uint32_t> bindings_, buffers_;           // of variables; their pointers' types
+  std::set<uint32_t> read_only_;                              // variables
+  std::map<uint32_t, std::set<uint32_t>> read_only_members_;  // by block
   std::map<uint32_t, uint64_t> values_;
   std::map<uint32_t, std::vector<uint32_t>> composites_;
   std::map<uint32_t, std::pair<uint32_t, std::vector<uint32_t>>> types_;
@@ -193,6 +215,12 @@ class Module {
 std::optional<ShaderNeeds> needs_of(std::span<const uint32_t> words,
                                     const VkSpecializationInfo* specialisation) try {
   return Module(words, specialisation).needs();
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
+std::optional<std::map<uint32_t, bool>> writes_of(std::span<const uint32_t> words) try {
+  return Module(words, nullptr).writes();
 } catch (const std::exception&) {
   return std::nullopt;
 }
