@@ -674,7 +674,7 @@ TEST_CASE("bytes behind a GLB's own length") {
   const std::string glb = test::triangle_document().glb();
   for (const std::string& behind :
        {std::string(4, '\0'), std::string("made by x"), std::string(1, ' ')}) {
-    const Mesh mesh = parse_mesh({.name = "a.glb", .bytes = glb + behind});
+    const ReadMesh mesh = parse_mesh({.name = "a.glb", .bytes = glb + behind});
     CHECK(mesh.faces.size() == 1);
     REQUIRE(mesh.notes.size() == 1);
     CHECK(mesh.notes[0].text == std::to_string(behind.size()) +

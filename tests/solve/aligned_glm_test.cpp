@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include "vkhausdorff/frame.h"
 #include "vkhausdorff/mesh_io.h"
 #include "vkhausdorff/prover.h"
 #include "vkhausdorff/solver.h"
