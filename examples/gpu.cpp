@@ -63,7 +63,7 @@ Gpu::Gpu(const GpuRequest& request) {
   create_layout();
   VkhContextCreateInfo info{};
   info.size = sizeof(info);
-  info.device = {vkGetInstanceProcAddr, instance_, physical_, device_};
+  info.device = {vkGetInstanceProcAddr, instance_, physical_, device_, kApiVersion};
   if (vkhCreateContext(&info, &context_) != VKH_SUCCESS) throw std::runtime_error("no context");
   keep([this] { vkhDestroyContext(context_); });
 }
