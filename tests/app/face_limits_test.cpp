@@ -127,7 +127,7 @@ TEST_CASE("--face-max: a CSV of all ways to write it") {
   const auto limits = [&](const std::string& text) {
     std::vector<double> of_faces;
     for (const vkh::Limit& limit :
-         vkh::read_face_limits(write_file("ways.csv", text), mesh, {9, 9}, "mm", 1))
+         vkh::read_face_limits(write_file("ways.csv", text), mesh, {9, 9}, "mm", {1, 0}))
       of_faces.push_back(vkh::typed_length(limit));
     return of_faces;
   };
