@@ -261,8 +261,8 @@ void print_part(std::ostream& out, const Answer& answer) {
       printed("%llu of %llu, from 0: h(A,B) is the largest of all parts'",
               static_cast<Count>(answer.part->index), static_cast<Count>(answer.part->count)));
   const double known = answer.a_to_b.known_lower;
-  if (known > 0)
-    print_row(out, "known", decimal(known, 9, Rounding::kDown) + " " + unit_text(answer));
+  // The number that was given, to the digits that it was given with: it is no bound of h.
+  if (known > 0) print_row(out, "known", printed("%.9g ", known) + unit_text(answer));
 }
 
 /// Whether the note stands with the sizes, or in the first line.

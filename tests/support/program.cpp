@@ -27,8 +27,8 @@ bool is_progress(const std::string& line) {
   if (first.size() == line.size()) return false;
   for (const char* what : {"reading", "survey", "certificate", "h(A,B)", "h(B,A)"})
     if (first == what) return true;
-  return first.find('/') != std::string::npos &&
-         first.find_first_not_of("0123456789/") == std::string::npos;
+  const bool is_share = first.ends_with(" %"), is_count = first.find('/') != std::string::npos;
+  return (is_share || is_count) && first.find_first_not_of("0123456789/ %") == std::string::npos;
 }
 
 /// The text without the lines of a run's progress: one every ten seconds, so that a slow machine
