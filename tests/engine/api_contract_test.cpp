@@ -111,6 +111,7 @@ struct Replaced {
     return std::strcmp(asked, name) == 0 ? ours : get_device(device, asked);
   }
   static PFN_vkVoidFunction VKAPI_CALL of_instance(VkInstance instance, const char* asked) {
+    if (std::strcmp(asked, name) == 0) return ours;  // functions of VK_EXT_debug_utils
     return std::strcmp(asked, "vkGetDeviceProcAddr") == 0
                ? reinterpret_cast<PFN_vkVoidFunction>(of_device)
                : get_instance(instance, asked);
