@@ -123,7 +123,7 @@ class AsciiBody {
 
   void check_float(double value, const char* what) const {
     constexpr double kBeyondFloat = 0x1.ffffffp127;  // rounds to infinity
-    if (!(std::abs(value) >= kBeyondFloat)) return;
+    if (!(std::abs(value) >= kBeyondFloat) || std::isinf(value)) return;
     fail(std::string("a ") + what + " beyond its column's type, float",
          "less than 3.5e38, or type double");
   }

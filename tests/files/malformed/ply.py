@@ -376,7 +376,7 @@ def points(cases):
     cases.refuse_points('grid_cut', ply(LITTLE, VERTEX + grid, V + rows[:-1]), "row 5 of 'range_grid'")
     cases.refuse('grid_alone', ply(LITTLE, VERTEX + grid, V + rows), "4 points and no element 'face'")
     cases.accept('grid_beside_faces', 4, ply(LITTLE, VERTEX + grid + FACE, V + rows + F))
-    cases.refuse_points('strips_alone', ply('ascii', VERTEX + ['element tristrips 1', CORNERS], VERTEX_ROWS + '3 0 1 2\n'), 'tristrips')
+    cases.refuse_points('strips_alone', ply('ascii', VERTEX + ['element tristrips 1', CORNERS], VERTEX_ROWS + '3 0 1 2\n'), '1 strip in a file of points')
     cases.accept_points('no_faces_announced', 4, ply(LITTLE, VERTEX + ['element face 0', CORNERS], V))
     cases.accept_points('face_element_of_nothing', 4, ply('ascii', VERTEX + ['element face 0'], VERTEX_ROWS))
     cases.accept_points('colours', 4, ply('ascii', VERTEX + ['property uchar red'], VERTEX_ROWS.replace('\n', ' 7\n')))
