@@ -337,12 +337,14 @@ TEST_CASE("slivers are ambiguous by their width at most, not by their length") {
     if (made.result.ambiguity == 0) continue;  // all corners on a line, exactly
     const Exact3 line = line_of_corners(points);
     const mpq_class exact = squared_width(points, line), said = made.result.ambiguity;
-    // The bound by a plane may be the smaller one of a polygon that has triangles.
+    // A polygon that has triangles keeps the bound by its plane up to 2^-20 of an extent below 8.
     if (has_only_fan(made.result.kind)) {
       CHECK(exact <= said * said);
+      CHECK(said <= 8 * width + 1e-13);
       ++slivers;
+    } else {
+      CHECK(said <= 8 * width + 0x1p-17);
     }
-    CHECK(said <= 8 * width + 1e-13);
   }
   CHECK(slivers > 1000 / kTimes);
 }
