@@ -122,8 +122,6 @@ def hills(cells, seed):
 class Subsets(unittest.TestCase):
     """Figures that alone are asked for are as narrow as the same ones among all."""
 
-    NORMALS = ("normal_consistency", "precision_normals", "recall_normals", "f1_normals")
-
     def check(self, names, whole, options):
         part = vkh.metrics(*self.pair, figures=names, **options)
         known, found = dict(whole._rows()), dict(part._rows())
@@ -134,8 +132,7 @@ class Subsets(unittest.TestCase):
                 one, all_of_it = found[key], known[key]
                 self.assertLessEqual(one.lower, all_of_it.upper, key)
                 self.assertGreaterEqual(one.upper, all_of_it.lower, key)
-                is_length = "@" not in key and key != "normal_consistency"
-                enough = 0.041 * all_of_it.upper if is_length else 0.0101 if key == "normal_consistency" else 0.00101
+                enough = 0.041 * all_of_it.upper if "@" not in key else 0.00101
                 self.assertLessEqual(one.upper - one.lower, max(enough, all_of_it.upper - all_of_it.lower), key)
         self.assertLessEqual(set(part.unmet), set(whole.unmet))
         self.assertTrue(part.met or not whole.met, part.unmet)
@@ -154,8 +151,8 @@ class Subsets(unittest.TestCase):
     def test_lengths(self):
         self.check_all(LENGTHS, 4, percentile=90)
 
-    def test_with_bands_and_normals(self):
-        self.check_all(LENGTHS + SHARES + self.NORMALS, 8, bands=[0.03, "5%"], normals=20)
+    def test_with_bands(self):
+        self.check_all(LENGTHS + SHARES, 8, bands=[0.03, "5%"])
 
 
 class Masks(unittest.TestCase):

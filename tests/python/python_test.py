@@ -286,7 +286,7 @@ class Refusals(unittest.TestCase):
         self.refused(shape, va=SQUARE.ravel())
         self.refused(shape, va=SQUARE[None])
         self.refused(shape, va="abc")
-        self.refused(shape, va=None)
+        self.refused(r"A's vertices: None; expected an array of shape \(n, 3\)", va=None)
         kind = r"an array of {}; expected an array of shape \(n, 3\) of float32, float64 or integers"
         self.refused("A's vertices: " + kind.format("float16"), va=SQUARE.astype(np.float16))
         self.refused("B's vertices: " + kind.format("bool"), vb=SQUARE.astype(bool))

@@ -16,7 +16,7 @@ import pathlib
 import statistics
 import sys
 
-from benchmark_report import percentile
+from benchmark_page import percentile
 
 PRESETS = ("default", "paper", "baseline-gpu")
 FAMILIES = ("tetwild", "decimation")
