@@ -9,6 +9,8 @@ import json
 import pathlib
 import subprocess
 
+# Options that GCC has and clang has not.
+GCC_ALONE = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-subobject-linkage", "-fno-gnu-unique", "--param=inline-unit-growth=400")
 CACHED = ("CMAKE_BUILD_TYPE", "CMAKE_C_COMPILER", "CMAKE_CXX_COMPILER", "VKH_TESTS", "VKH_EXAMPLES", "VKH_WERROR", "VKH_PYTHON")
 
 
@@ -32,3 +34,11 @@ def configure(build: pathlib.Path, source: pathlib.Path, units: bool = False) ->
         entry["command"] = entry["command"].replace(f"{folder}/generated", f"{build}/generated")
     commands.write_text(json.dumps(entries, indent=1))
     return folder
+
+
+def write_for_clang(build: pathlib.Path, folder: pathlib.Path) -> None:
+    """Writes the build's compile_commands.json into the folder, without options that clang does not have."""
+    entries = json.loads((build / "compile_commands.json").read_text())
+    for entry in entries:
+        entry["command"] = " ".join(word for word in entry["command"].split(" ") if word not in GCC_ALONE)
+    (folder / "compile_commands.json").write_text(json.dumps(entries, indent=1))

@@ -16,8 +16,6 @@ import sys
 import alone
 
 PRODUCT = ("CMakeFiles", "host", "check", "examples")  # the engine and the checker are targets of the top folder
-# Options that clang does not have.
-OURS = ("-Wno-restrict", "-Wno-stringop-overflow", "-Wno-subobject-linkage", "--param=inline-unit-growth=400")
 
 
 def command_of(entry: dict, compilers: dict) -> list[str]:
@@ -28,7 +26,7 @@ def command_of(entry: dict, compilers: dict) -> list[str]:
     kept = []
     skip = False
     for word in words:
-        if skip or word in OURS or word in ("-c", "-MD", file):
+        if skip or word in alone.GCC_ALONE or word in ("-c", "-MD", file):
             skip = False
         elif word in ("-o", "-MT", "-MF"):
             skip = True

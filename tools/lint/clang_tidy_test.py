@@ -93,9 +93,10 @@ def main() -> int:
         print(f"clang_tidy_test: {build} compiles {len(read)} sources of {source}: too few to be all")
         return 1
     largest_first = sorted(ours, key=lambda f: -sum(pathlib.Path(part).stat().st_size for part in sources_in(f)))
-    with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("VKH_JOBS", os.cpu_count()))) as pool:
+    with concurrent.futures.ThreadPoolExecutor(int(os.environ.get("VKH_JOBS", os.cpu_count()))) as pool, tempfile.TemporaryDirectory() as folder:
+        alone.write_for_clang(build, pathlib.Path(folder))
         wrong = 0
-        for text in filter(None, pool.map(lambda f: findings(build, f), largest_first)):
+        for text in filter(None, pool.map(lambda f: findings(pathlib.Path(folder), f), largest_first)):
             print(text, flush=True)
             wrong += 1
     print(f"clang_tidy_test: {len(read)} sources in {len(ours)} units, {wrong} units with findings")
