@@ -236,7 +236,8 @@ namespace vkh {
 namespace {
 
 std::string reasons_against(const VkhDeviceInfo& info) {
-  if (const std::string old = too_old(info); !old.empty()) return old;
+  std::string old = too_old(info);
+  if (!old.empty()) return old;
   DeviceFacts facts;
   query_facts(info, facts);
   // Every device answers this since Vulkan 1.1, and lavapipe only where the instance is as new. It

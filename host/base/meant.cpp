@@ -97,6 +97,7 @@ const TypedUnit* nearest_unit(const std::string& word) {
                                                       [](char c) { return c >= 'a' && c <= 'z'; });
   if (!is_word) return nullptr;
   std::vector<std::string> names;
+  names.reserve(std::size(kTypedUnits));
   for (const TypedUnit& unit : kTypedUnits) names.emplace_back(unit.typed);
   const TypedUnit* nearest = nullptr;
   for (const std::string& name : closest_names(word, names, word.size() < kLong ? 1 : 2)) {

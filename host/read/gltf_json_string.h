@@ -27,11 +27,11 @@ class JsonString {
 
  private:
   int escape() {
-    constexpr std::string_view kNames = "\"\\/bfnrt", kBytes = "\"\\/\b\f\n\r\t";
+    constexpr std::string_view kEscapes = "\"\\/bfnrt", kBytes = "\"\\/\b\f\n\r\t";
     if (at_ >= text_.size()) return kNoEscape;
     const char name = text_[at_++];
     if (name == 'u') return code_point();
-    const size_t number = kNames.find(name);
+    const size_t number = kEscapes.find(name);
     return number == std::string_view::npos ? kNoEscape
                                             : static_cast<unsigned char>(kBytes[number]);
   }

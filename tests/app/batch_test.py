@@ -113,7 +113,7 @@ class Answers(Folder):
         text = (self.folder / "out.xml").read_text()
         for side in "AB":
             self.assertIn(f"\n{side}: polygons: 1 face of more than three corners was triangulated", text)
-        self.assertNotIn("polylines", text)
+        self.assertIn("polylines", text)
 
     def test_groups_and_lanes_change_no_bit(self):
         self.make_pairs(12)

@@ -383,7 +383,7 @@ class Points(unittest.TestCase):
         for name, text in (("heading.xyz", "ID X Y Z\n" + rows), ("heading.csv", "ID,X,Y,Z\n" + rows.replace(" ", ",")), ("comment.txt", "# id x y z\n" + rows)):
             self.write(name, text.encode())
             answer = self.ask("gate", name, "sheet.ply", "--points", "a", "--max", "0.1abs", codes=(1,))
-            self.assertIn("unread: x, y and z are columns 2, 3 and 4", [f"{note['code']}: {note['text'][:33]}" for note in answer["notes"]])
+            self.assertIn("unread: x, y and z are columns 2, 3 and 4", [f"{note['code']}: {note['text'][:33]}" for note in answer["inputs"][0]["notes"]])
         self.write("none.xyz", rows.encode())
         done = self.run_here(PROGRAM, "gate", "none.xyz", "sheet.ply", "--points", "a", "--max", "0.1abs")
         self.assertEqual(done.returncode, 4)
