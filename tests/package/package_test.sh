@@ -53,9 +53,9 @@ cmake -S "$consumer" -B "$folder/cmake" -DCMAKE_PREFIX_PATH="$package" -DCMAKE_B
 check_consumers "$folder/cmake"
 sed 's/VkHausdorff 0.3/VkHausdorff 0.4/' "$consumer/CMakeLists.txt" >"$folder/CMakeLists.txt"
 if cmake -S "$folder" -B "$folder/newer" -DCMAKE_PREFIX_PATH="$package" >"$folder/log" 2>&1; then
-  fail "find_package took this version for 0.3"
+  fail "find_package took this version for 0.4"
 fi
-grep -q 'version: 0.2' "$folder/log" || { cat "$folder/log"; fail "find_package failed, but not for the version"; }
+grep -q 'version: 0.3' "$folder/log" || { cat "$folder/log"; fail "find_package failed, but not for the version"; }
 
 # A CTest that a mesh is within a limit, in a project that compiles nothing.
 mkdir "$folder/gated"
