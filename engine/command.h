@@ -57,7 +57,7 @@ class Barriers {
   void write_in_step(const std::vector<Track>& tracks);
 
  private:
-  // What a step does besides computing.
+  // The needs of a step besides computing.
   struct Needs {
     bool transfers = false;
     bool fresh_sizes = false;  // it reads one that was written since the last barrier for sizes

@@ -15,7 +15,7 @@
 namespace vkh {
 namespace {
 
-// Of our instances. 1.3 alone may give a device synchronization2.
+// The version of our instances: 1.3 alone may give a device synchronization2.
 constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 

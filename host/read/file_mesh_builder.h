@@ -78,7 +78,7 @@ class FileMeshBuilder {
     if (++rows_ % kRowsOfTick == 0) check_going(name_, limits_);
   }
   class SliverWidth;
-  /// What became of polygons; and those with only a fan that are no slivers.
+  /// The fate of polygons, and the count of those with only a fan that are no slivers.
   struct Triangulated {
     Polygons polygons;
     uint64_t odd = 0, first_odd = 0;

@@ -21,7 +21,7 @@ namespace {
 
 using namespace ply;
 
-/// What a row holds, for what may stand behind it in a text.
+/// The content of a row, to tell what may stand behind it in a text.
 enum class Row { kVertex, kFace, kOther };
 
 void note_lines(const Lines& lines, const char* text, FileMeshBuilder& builder) {

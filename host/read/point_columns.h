@@ -68,7 +68,7 @@ class ColumnNames {
  private:
   enum class Name : uint8_t { kX, kY, kZ, kKnown, kUnknown, kPlace, kNumber, kList };
   using Names = std::vector<Name>;
-  /// What a line may say: places of x, y and z.
+  /// A reading of a line: places of x, y and z.
   struct Readings {
     std::optional<std::array<size_t, 3>> first;
     bool are_several = false;
@@ -89,7 +89,7 @@ class ColumnNames {
   Names names_;
 };
 
-/// What columns() throws: names of which none or several readings are right.
+/// Thrown by columns(): none or several readings of the names are right.
 struct UnclearColumns {};
 
 /// An example of a heading for so many columns.
