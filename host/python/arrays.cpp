@@ -22,8 +22,7 @@ namespace py = pybind11;
 // Text of a Python object, such as a shape or a dtype.
 std::string in_words(const py::object& object) { return py::cast<std::string>(py::str(object)); }
 
-// Makes an array of all that NumPy takes for one, of three columns. Rows of none are left to
-// make_mesh.
+// Makes an array of all that NumPy takes for one.
 py::array array_from(const std::string& what, const py::object& object,
                      const std::string& expected) {
   if (object.is_none()) refuse(what, "None", expected);
@@ -33,9 +32,17 @@ py::array array_from(const std::string& what, const py::object& object,
     PyErr_Clear();
     refuse(what, "no array can be made of " + in_words(py::type::of(object)), expected);
   }
-  if (array.ndim() != 2 || array.shape(1) != 3)
-    refuse(what, "an array of shape " + in_words(array.attr("shape")), expected);
   return array;
+}
+
+bool has_columns(const py::array& array, py::ssize_t count) {
+  return array.ndim() == 2 && array.shape(1) == count;
+}
+
+// Refuses all but three columns. Rows of none are left to make_mesh.
+void check_columns(const std::string& what, const py::array& array, const std::string& expected) {
+  if (!has_columns(array, 3))
+    refuse(what, "an array of shape " + in_words(array.attr("shape")), expected);
 }
 
 // Makes a row-major copy in native byte order, unless it is that already.
@@ -89,10 +96,11 @@ std::vector<glm::dvec3> integers_from(const PointsName& name, const py::array& g
 }
 
 std::vector<glm::dvec3> named_points_from(const PointsName& name, const py::object& object) {
-  const std::string expected =
-      "an array of shape (n, 3) of float32, float64 or integers (points of a plane: add a column "
-      "of zeros)";
+  const std::string expected = "an array of shape (n, 3) of float32, float64 or integers";
   const py::array given = array_from(name.what, object, expected);
+  const std::string hint =
+      has_columns(given, 2) ? " (points of a plane: add a column of zeros)" : "";
+  check_columns(name.what, given, expected + hint);
   const char kind = given.dtype().kind();
   if (kind == 'i') return integers_from<int64_t>(name, given);
   if (kind == 'u') return integers_from<uint64_t>(name, given);
@@ -126,6 +134,7 @@ std::vector<glm::uvec3> faces_from(const std::string& name, const py::object& ob
   const std::string what = name + "'s faces";
   const std::string expected = "an array of shape (m, 3) of integers";
   const py::array given = array_from(what, object, expected);
+  check_columns(what, given, expected);
   const char kind = given.dtype().kind();
   if (kind == 'i') return indices_from<int64_t>(what, given, vertex_count);
   if (kind == 'u') return indices_from<uint64_t>(what, given, vertex_count);

@@ -282,7 +282,9 @@ class Refusals(unittest.TestCase):
 
     def test_vertices(self):
         shape = r"A's vertices: an array of shape .*; expected an array of shape \(n, 3\) of float32, float64 or integers"
-        self.refused(shape, va=SQUARE[:, :2])
+        hint = r" \(points of a plane: add a column of zeros\)$"
+        self.refused(shape + hint, va=SQUARE[:, :2])
+        shape += "$"
         self.refused(shape, va=SQUARE.ravel())
         self.refused(shape, va=SQUARE[None])
         self.refused(shape, va="abc")
