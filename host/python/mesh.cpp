@@ -115,25 +115,14 @@ bool is_pair(const py::object& object) {
          py::len(object) == 2;
 }
 
-// Returns none if there is no such attribute. Other errors of it are raised.
-py::object attribute(const py::object& object, const char* name) {
-  auto value = py::reinterpret_steal<py::object>(PyObject_GetAttrString(object.ptr(), name));
-  if (value) return value;
-  if (PyErr_ExceptionMatches(PyExc_AttributeError) == 0) throw py::error_already_set();
-  PyErr_Clear();
-  return py::none();
+py::object adapter(const char* name) {
+  return py::module_::import("vkhausdorff._meshes").attr(name);
 }
 
-// Returns (vertices, faces); None for both if an object has none. Meshes of meshio, PyVista and VTK
-// name them otherwise.
+// Returns (vertices, faces); None for both if an object has none.
 py::tuple arrays_of(const py::object& object) {
   if (is_pair(object)) return py::tuple(object);
-  py::object vertices = attribute(object, "vertices");
-  if (vertices.is_none())
-    return py::tuple(py::module_::import("vkhausdorff._meshes").attr("arrays")(object));
-  py::object faces = attribute(object, "faces");
-  if (faces.is_none()) faces = attribute(object, "triangles");
-  return py::make_tuple(vertices, faces);
+  return py::tuple(adapter("arrays")(object));
 }
 
 bool has_arrays(const py::tuple& arrays) { return !arrays[0].is_none() && !arrays[1].is_none(); }
@@ -152,23 +141,13 @@ py::tuple named_arrays_of(const char* argument, const py::object& object) {
   }
 }
 
-// Says what an object has of a mesh and what it lacks, if it has anything.
-std::string lack_of(const py::object& object) {
-  const bool has_vertices = !attribute(object, "vertices").is_none();
-  const bool has_faces =
-      !attribute(object, "faces").is_none() || !attribute(object, "triangles").is_none();
-  if (has_vertices && !has_faces) return " that has .vertices and neither .faces nor .triangles";
-  if (has_faces && !has_vertices) return " that has faces and no .vertices";
-  return "";
-}
-
 [[noreturn]] void refuse_mesh(const char* argument, const py::object& object) {
   const std::string given =
       object.is_none() ? "None" : std::string("a value of type ") + Py_TYPE(object.ptr())->tp_name;
   throw py::type_error(std::string(argument) +
                        ": expected (vertices, faces), an object that has .vertices and .faces, "
                        "a mesh of meshio, PyVista or VTK, or the path of a file, not " +
-                       given + lack_of(object));
+                       given + py::cast<std::string>(adapter("lack")(object)));
 }
 
 py::tuple checked_arrays(const char* argument, const py::object& object) {
@@ -324,7 +303,7 @@ FileMesh mesh_from_state(const py::tuple& state) {
 // The array of points of an object that has .vertices or .points, or the object.
 py::object points_array(const char* argument, const py::object& object) {
   try {
-    return py::module_::import("vkhausdorff._meshes").attr("points")(object);
+    return adapter("points")(object);
   } catch (const py::error_already_set& error) {
     if (!error.matches(PyExc_ValueError)) throw;
     throw py::value_error(std::string(argument) + ": " + std::string(py::str(error.value())));

@@ -1,5 +1,6 @@
-"""Points and triangles of other libraries' meshes: meshio, PyVista, VTK. Anything else that they hold is refused by name,
-since a surface of which a part was left out would be measured as if it were whole."""
+"""Points and triangles of meshes: of objects that have .vertices and .faces (trimesh) or .triangles (Open3D), and of meshio,
+PyVista and VTK. Anything else that those hold is refused by name, since a surface of which a part was left out would be
+measured as if it were whole."""
 
 import numpy as np
 
@@ -66,8 +67,24 @@ def points(given):
     return found
 
 
+def _faces(mesh):
+    faces = getattr(mesh, "faces", None)
+    return getattr(mesh, "triangles", None) if faces is None else faces
+
+
+def lack(given):
+    """Says, for the end of a message, what an object has of a mesh and what it lacks, if it has anything."""
+    has_vertices, has_faces = getattr(given, "vertices", None) is not None, _faces(given) is not None
+    if has_vertices and not has_faces:
+        return " that has .vertices and neither .faces nor .triangles"
+    return " that has faces and no .vertices" if has_faces and not has_vertices else ""
+
+
 def arrays(mesh):
-    """Returns (points, triangles), or (None, None) for an object of no such library."""
+    """Returns (points, triangles), or (None, None) for an object that has none."""
+    vertices = getattr(mesh, "vertices", None)
+    if vertices is not None:
+        return vertices, _faces(mesh)
     if hasattr(mesh, "cells_dict") and hasattr(mesh, "points"):
         return _of_meshio(mesh)
     if hasattr(mesh, "regular_faces") and hasattr(mesh, "points"):
