@@ -1,5 +1,6 @@
-// EXT_meshopt_compression: data that meshoptimizer packed comes out unchanged, and no more than the
-// packed bytes can hold is allocated. Without meshoptimizer: a refusal that names its package.
+// EXT_ and KHR_meshopt_compression: data that meshoptimizer packed comes out unchanged, and no more
+// than the packed bytes can hold is allocated. Without meshoptimizer: a refusal that names its
+// package.
 #include "host/read/gltf_unpack.h"
 
 #include <doctest/doctest.h>
@@ -125,6 +126,24 @@ TEST_CASE("packed views are read as what was packed") {
   for (size_t f = 0; f < mesh.faces.size(); ++f)
     CHECK(sorted_corners(mesh, f) == sorted_corners(plain, f));
   CHECK(mesh.delta == 0);
+}
+
+TEST_CASE("the extension as Khronos ratified it is read, too; unknown codecs are refused") {
+  const Sphere from = sphere();
+  const std::string vertices = packed_vertices(from.vertices);
+  const Document ext =
+      packed_document(from, vertices, packed_indices(from.indices, from.vertices.size() / 4));
+  Document khr = ext;
+  for (Json& view : khr.json["bufferViews"])
+    view["extensions"] = {
+        {"KHR_meshopt_compression", view["extensions"]["EXT_meshopt_compression"]}};
+  khr.json["extensionsRequired"] = {"KHR_meshopt_compression"};
+  CHECK(parse(khr).vertices == parse(ext).vertices);
+  CHECK(parse(khr).faces == parse(ext).faces);
+  // The first byte has the codec's version in its lower half; the highest is nobody's.
+  Document later = khr;
+  later.binary[0] = static_cast<char>(0xaf);
+  check_refused(later, "its meshopt compression cannot be undone");
 }
 
 TEST_CASE("indices in sequence, and the exponential filter") {

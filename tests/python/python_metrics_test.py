@@ -20,6 +20,7 @@ SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float64
 FACES = np.array([[0, 1, 2], [0, 2, 3]])
 LENGTHS = ("hausdorff", "hd_p", "hd_p_pooled", "masd", "assd", "rms", "chamfer_l1", "chamfer_l2")
 SHARES = ("nsd", "precision", "recall", "f1")
+NORMALS = ("normal_consistency", "precision_normals", "recall_normals", "f1_normals")
 
 
 def block(shape, low, high):
@@ -119,6 +120,12 @@ def hills(cells, seed):
     return vertices, np.array(faces)
 
 
+def roof(height):
+    """Two rectangles over the unit square, which meet at this height over its middle."""
+    vertices = np.array([[x, y, height * (x == 0.5)] for y in (0, 1) for x in (0, 0.5, 1)])
+    return vertices, np.array([[0, 1, 4], [0, 4, 3], [1, 2, 5], [1, 5, 4]])
+
+
 class Subsets(unittest.TestCase):
     """Figures that alone are asked for are as narrow as the same ones among all."""
 
@@ -138,7 +145,6 @@ class Subsets(unittest.TestCase):
         self.assertTrue(part.met or not whole.met, part.unmet)
 
     def check_all(self, names, count, **options):
-        self.pair = hills(4, 1), hills(5, 2)
         whole = vkh.metrics(*self.pair, **options)
         self.assertTrue(whole.met, whole.unmet)
         chance = random.Random(3)
@@ -149,10 +155,17 @@ class Subsets(unittest.TestCase):
                 self.check(subset, whole, options)
 
     def test_lengths(self):
+        self.pair = hills(4, 1), hills(5, 2)
         self.check_all(LENGTHS, 4, percentile=90)
 
     def test_with_bands(self):
+        self.pair = hills(4, 1), hills(5, 2)
         self.check_all(LENGTHS + SHARES, 8, bands=[0.03, "5%"])
+
+    def test_with_normals(self):
+        # Two roofs that differ in their slopes: where the closest faces change, normals stay open for long on hills.
+        self.pair = roof(0.25), roof(0.3125)
+        self.check_all(LENGTHS + SHARES + NORMALS, 8, bands=[0.03], normals=2)
 
 
 class Masks(unittest.TestCase):
