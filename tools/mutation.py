@@ -57,8 +57,9 @@ class Tree:
         program = self.folder / test
         before, after = link_line.split(f" -o tests/{test} ")
         head = before.split(" tests/CMakeFiles/")[0]
-        # The mutated objects come before the archives, whose own copies are then not taken.
-        self.shell(f"{head} {' '.join(objects)} -o {program} {after}")
+        # The mutated objects come before the archives, whose own copies are then not taken. A unity build's archive
+        # has a room in one object, which comes with the rest of the room: its second definitions are passed over.
+        self.shell(f"{head} -Wl,-z,muldefs {' '.join(objects)} -o {program} {after}")
         environment = dict(os.environ, VKH_CASES=str(self.cases))
         return subprocess.run([str(program)], env=environment, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL, timeout=600).returncode == 0
