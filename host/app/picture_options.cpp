@@ -240,7 +240,6 @@ std::string Pictures::write(const Answered& done) const {
       certificate_->write(certificate_text(done.answer, {done.pair.a, done.pair.b}));
     if (!asked_.of_cells()) return "";
     if (!done.session.device) throw OutputError("the run ended before there were bounds of faces");
-    const Device& device = *done.session.device;
     const Measured measured{done.answer, done.pair.a, done.pair.b};
     write_tables(measured);
     for (const Side& side : sides_of(measured)) {
@@ -248,11 +247,11 @@ std::string Pictures::write(const Answered& done) const {
       const std::optional<OutputFile>& image = side.back ? image_.back : image_.there;
       if (field) field->write(field_text(side, done.answer, asked_));
       if (field && !side.back) note_on_metres(done.answer, *asked_.field);
-      if (image) image->write(picture_of(side, done.answer, asked_.look, device));
+      if (image) image->write(picture_of(side, done.answer, asked_.look));
     }
     if (report_)
-      report_->write(report_of(measured, pictures_or_none(measured, asked_.look, device),
-                               asked_.look, asked_.title));
+      report_->write(
+          report_of(measured, pictures_of(measured, asked_.look), asked_.look, asked_.title));
   } catch (const Error& error) {  // a length that the files' units do not resolve, for example
     return error.what();
   }

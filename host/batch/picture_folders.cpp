@@ -108,15 +108,11 @@ void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   const Measured measured{answer, *pair.meshes.a, *pair.meshes.b};
   const std::string& id = entry.name.id;
   const std::string key = key_of(entry.name);
-  std::vector<std::string> pictures = pictures_or_none(measured, asked_.look, pair.solver.device());
+  std::vector<std::string> pictures = pictures_of(measured, asked_.look);
   if (reports_) reports_->write(id, false, report_of(measured, pictures, asked_.look), key);
   if (!images_) return;
-  for (const Side& side : sides_of(measured)) {
-    std::string& picture = pictures[side.back ? 1 : 0];
-    if (picture.empty())  // throws the reason why there is none
-      picture = picture_of(side, answer, asked_.look, pair.solver.device());
-    images_->write(id, side.back, std::move(picture), key);
-  }
+  for (const Side& side : sides_of(measured))
+    images_->write(id, side.back, std::move(pictures[side.back ? 1 : 0]), key);
 }
 
 void BatchFolders::write_indexes(const std::string& file, const std::vector<Entry>& entries,

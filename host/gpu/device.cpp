@@ -301,7 +301,6 @@ void Device::create_device(bool robust) {
   const std::vector<VkQueueFamilyProperties> families = queue_families(*vk_, physical_);
   queue_family_ = compute_family(families);
   has_timestamps_ = families[queue_family_].timestampValidBits > 0;
-  has_graphics_ = draws(families[queue_family_]);
   const float priority = 1.0f;
   VkDeviceQueueCreateInfo queue{};
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -358,7 +357,6 @@ void Device::adopt(const AdoptedDevice& adopted) {
       (families[adopted.queue_family].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0)
     refuse("its queue family " + std::to_string(adopted.queue_family) + " has no compute");
   has_timestamps_ = families[adopted.queue_family].timestampValidBits > 0;
-  has_graphics_ = draws(families[adopted.queue_family]);
   instance_ = adopted.instance;
   physical_ = adopted.physical;
   device_ = adopted.device;

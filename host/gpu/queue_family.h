@@ -16,15 +16,11 @@ inline std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
   });
 }
 
-inline bool draws(const VkQueueFamilyProperties& family) {
-  return (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0;
-}
-
-/// The first of the best: with timestamps, since stages are timed then; among these one that draws.
+/// The first of the best: with timestamps, since stages are timed then.
 inline uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
   const auto worth = [](const VkQueueFamilyProperties& f) {
-    const int more = (f.timestampValidBits > 0 ? 2 : 0) + (draws(f) ? 1 : 0);
-    return (f.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 ? 1 + more : 0;
+    if ((f.queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) return 0;
+    return f.timestampValidBits > 0 ? 2 : 1;
   };
   const auto best =
       std::max_element(families.begin(), families.end(),

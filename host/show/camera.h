@@ -65,10 +65,9 @@ struct Camera {
     constexpr double kOfSpacing = 0.9, kLeast = 0.7;
     return std::clamp(kOfSpacing * spacing * scale, kLeast, std::max(widest * area.width, kLeast));
   }
-  /// Vulkan's clip space, of a pixel with its depth.
-  glm::dvec3 clipped(const glm::dvec3& pixel) const {
-    return {2 * (pixel.x - area.x) / area.width - 1, 2 * (pixel.y - area.y) / area.height - 1,
-            (before - pixel.z) / (before + reach)};
+  /// The place in a layer of the area, of a pixel with its depth: z is 0 for the nearest.
+  glm::dvec3 placed(const glm::dvec3& pixel) const {
+    return {pixel.x - area.x, pixel.y - area.y, (before - pixel.z) / (before + reach)};
   }
 };
 

@@ -142,13 +142,11 @@ void Canvas::polygon(const std::vector<glm::dvec2>& corners, Rgb colour) {
 }
 
 void Canvas::hatch(const Area& area, double period) {
-  constexpr double kStripe = 0.42;  // as in mesh.frag
-  constexpr Rgb kStripes{74, 64, 51};
   const double slant = std::sqrt(0.5);
-  cover(area, kStripes, 1, [&](glm::dvec2 p) {
+  cover(area, kStripe, 1, [&](glm::dvec2 p) {
     const double at = (p.x + p.y) / period;
-    const double off = std::abs(at - std::floor(at) - kStripe / 2);
-    const double stripe = (kStripe / 2 - std::min(off, 1 - off)) * period * slant;
+    const double off = std::abs(at - std::floor(at) - kStripeShare / 2);
+    const double stripe = (kStripeShare / 2 - std::min(off, 1 - off)) * period * slant;
     return std::min(stripe, inside_of_rounded(area, 0, p));
   });
 }

@@ -28,9 +28,8 @@ double unit_of(const PictureOptions& options) {
 
 class Drawing {
  public:
-  Drawing(const Device& device, const MappedPicture& mapped, const PictureOptions& options)
-      : device_(device),
-        mapped_(mapped),
+  Drawing(const MappedPicture& mapped, const PictureOptions& options)
+      : mapped_(mapped),
         picture_(mapped.drawn),
         options_(options),
         image_{options.width, options.height,
@@ -45,8 +44,7 @@ class Drawing {
  private:
   std::vector<std::string> footer_lines() const;
   Places places_for(size_t footer_lines) const;
-  static uint32_t most_pixels(const std::vector<Panel>& panels, bool height);
-  Layer paint(Raster& raster, const Camera& camera);
+  Layer paint(const Camera& camera);
   void draw_header();
   double draw_name(double x, const char* letter, const std::string& name, double width);
   void draw_lines(const std::vector<std::string>& lines, double y);
@@ -72,7 +70,6 @@ class Drawing {
   void draw_label(const Placed& label);
   void draw_map_legend(const Area& side);
 
-  const Device& device_;
   const MappedPicture& mapped_;
   const Picture& picture_;
   const PictureOptions& options_;
@@ -131,19 +128,13 @@ Places Drawing::places_for(size_t footer_lines) const {
   return places;
 }
 
-uint32_t Drawing::most_pixels(const std::vector<Panel>& panels, bool height) {
-  const auto side = [&](const Area& area) { return height ? area.height : area.width; };
-  double most = 1;
-  for (const Panel& panel : panels) most = std::max(most, side(panel.camera.area));
-  return static_cast<uint32_t>(most);
-}
-
-Layer Drawing::paint(Raster& raster, const Camera& camera) {
-  const VkExtent2D pixels{static_cast<uint32_t>(camera.area.width),
-                          static_cast<uint32_t>(camera.area.height)};
-  const double line = std::max(1.0, 1.3 * unit_);
-  Layer layer = raster.draw(pixels, line, picture_.map->cells.size(),
-                            cells_for(picture_, *mapped_.scale, camera));
+Layer Drawing::paint(const Camera& camera) {
+  const RasterOptions options{.width = static_cast<uint32_t>(camera.area.width),
+                              .height = static_cast<uint32_t>(camera.area.height),
+                              .line = std::max(1.0, 1.3 * unit_),
+                              .palette = mapped_.scale->palette()};
+  Layer layer =
+      rasterized(options, picture_.map->cells.size(), cells_for(picture_, *mapped_.scale, camera));
   canvas_.paste(layer, static_cast<uint32_t>(camera.area.x), static_cast<uint32_t>(camera.area.y));
   return layer;
 }
@@ -217,13 +208,11 @@ Image Drawing::draw() {
   const std::vector<std::string> footer = footer_lines();
   const Places places = places_for(footer.size());
   const std::vector<Panel> panels = views_.panels_in(places.views);
-  Raster raster(device_, most_pixels(panels, false), most_pixels(panels, true));
-  raster.set_palette(mapped_.scale->palette());
   draw_header();
   draw_lines(footer, places.footer);
   std::vector<Layer> layers;
   layers.reserve(panels.size());
-  for (const Panel& panel : panels) layers.push_back(paint(raster, panel.camera));
+  for (const Panel& panel : panels) layers.push_back(paint(panel.camera));
   for (size_t i = 0; i < panels.size(); ++i) {
     draw_panel_frame(panels[i]);
     draw_numbers(panels[i], layers[i], panels.size() == 1);
@@ -380,9 +369,9 @@ void check(const Picture& picture, const PictureOptions& options) {
 }  // namespace
 }  // namespace drawing
 
-Image draw(const Device& device, const Picture& picture, const PictureOptions& options) {
+Image draw(const Picture& picture, const PictureOptions& options) {
   drawing::check(picture, options);
-  return drawing::Drawing(device, drawing::MappedPicture(picture, options), options).draw();
+  return drawing::Drawing(drawing::MappedPicture(picture, options), options).draw();
 }
 
 }  // namespace vkh

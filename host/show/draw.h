@@ -1,4 +1,4 @@
-// A picture of A for a report, drawn off screen: by cells in the colours of estimated distances.
+// A picture of A for a report, drawn by the host: by cells in the colours of estimated distances.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,6 @@
 
 #include "vkhausdorff/cell_map.h"
 #include "vkhausdorff/colour_map.h"
-#include "vkhausdorff/device.h"
 #include "vkhausdorff/field.h"
 
 namespace vkh {
@@ -83,9 +82,9 @@ inline constexpr uint32_t kLeastPictureWidth = 640, kLeastPictureHeight = 400,
 View parse_view(const char* option, const std::string& text);
 void parse_picture_size(const char* option, const std::string& text, PictureOptions& options);
 
-/// Throws UsageError if the options make no sense, or the build has no stb; DeviceError if the
-/// device's queue does not draw; MemoryError if it lacks memory for the size.
-Image draw(const Device& device, const Picture& picture, const PictureOptions& options = {});
+/// Throws UsageError if the options make no sense, or the build has no stb. The same bytes on every
+/// machine.
+Image draw(const Picture& picture, const PictureOptions& options = {});
 
 /// The bytes of a PNG file.
 std::string encode_png(const Image& image);

@@ -94,21 +94,14 @@ Picture drawn_of(const Side& side, const Answer& answer) {
   return picture;
 }
 
-std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,
-                       const Device& device) {
-  return encode_png(draw(device, drawn_of(side, answer), options_of(look, answer)));
+std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look) {
+  return encode_png(draw(drawn_of(side, answer), options_of(look, answer)));
 }
 
-std::vector<std::string> pictures_or_none(const Measured& measured, const PictureStyle& look,
-                                          const Device& device) {
+std::vector<std::string> pictures_of(const Measured& measured, const PictureStyle& look) {
   std::vector<std::string> pictures;
-  for (const Side& side : sides_of(measured)) {
-    try {
-      pictures.push_back(picture_of(side, measured.answer, look, device));
-    } catch (const DeviceError&) {  // a queue that does not draw
-      pictures.emplace_back();
-    }
-  }
+  for (const Side& side : sides_of(measured))
+    pictures.push_back(picture_of(side, measured.answer, look));
   return pictures;
 }
 

@@ -51,13 +51,10 @@ Picture drawn_of(const Side& side, const Answer& answer);
 
 /// Returns a PNG's bytes. Throws what draw() throws, and UsageError for a range that the files'
 /// units do not resolve.
-std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look,
-                       const Device& device);
+std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look);
 
-/// Returns one picture per side; an empty one if the device does not draw. A report without
-/// pictures is one all the same: they only stand in where there is no WebGL.
-std::vector<std::string> pictures_or_none(const Measured& measured, const PictureStyle& look,
-                                          const Device& device);
+/// Returns one picture per side: they stand in where a page has no WebGL.
+std::vector<std::string> pictures_of(const Measured& measured, const PictureStyle& look);
 
 /// Returns a page, with `pictures` of the sides and their colours. `title`: its heading; empty: the
 /// names of both files.

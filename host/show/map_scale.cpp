@@ -93,7 +93,7 @@ class CellWriter {
     const std::array<glm::dvec3, 3> at = pixels_of(cell);
     const double light = light_on(normal_seen(at, camera_.scale));
     for (size_t k = 0; k < at.size(); ++k) {
-      corners[k] = look_at(cell, k, light).placed_at(camera_.clipped(at[k]));
+      corners[k] = look_at(cell, k, light).placed_at(camera_.placed(at[k]));
     }
   }
 

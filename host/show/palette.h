@@ -1,4 +1,4 @@
-// Colours along a bar in three parts, as mesh.frag draws them.
+// Colours along a bar in three parts.
 #pragma once
 
 #include <algorithm>

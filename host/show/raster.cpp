@@ -1,384 +1,361 @@
 #include "host/show/raster.h"
 
+#include <algorithm>
 #include <array>
-#include <cstddef>
+#include <cmath>
+#include <span>
+#include <utility>
 
-#include "host/base/parallel.h"
-#include "host/gpu/vulkan_api.h"
-#include "kernels/draw/mesh_frag.h"
-#include "kernels/draw/mesh_vert.h"
-#include "vkhausdorff/error.h"
+#include "host/show/map_scale.h"
 
 namespace vkh::drawing {
 namespace {
 
-constexpr VkFormat kColour = VK_FORMAT_R8G8B8A8_UNORM;  // sRGB's own numbers: a map's, untouched
-constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
-constexpr AttachmentKind kColourKind{
-    kColour, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-    VK_IMAGE_ASPECT_COLOR_BIT};
-constexpr AttachmentKind kDepthKind{kDepth, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                                    VK_IMAGE_ASPECT_DEPTH_BIT};
+// 72 MiB of corners at once.
+constexpr size_t kFacesAtOnce = size_t{1} << 20;
+constexpr int kMostSamples = 4;                      // per side: 16 a pixel
+constexpr uint64_t kMostInAll = uint64_t{40} << 20;  // of samples: 320 MiB of colour and depth
+constexpr int kTile = 64;                            // pixels a side: 512 KiB of samples
+constexpr int64_t kSub = 256;                        // steps of a corner's place in a sample
+constexpr size_t kPiece = 16384;                     // faces that a thread sorts into tiles
 
-// 30 MiB of corners: bindings of 128 MiB are no limit, nor is a device's visible memory.
-constexpr size_t kFacesAtOnce = size_t{1} << 19;
-constexpr uint32_t kMostSamples = 4;                 // per side: 16 a pixel
-constexpr uint64_t kMostInAll = uint64_t{40} << 20;  // 320 MiB of colour and depth
-
-// As mesh.frag has them; every device takes so many bytes.
-struct Constants {
-  float hatch_period, from, to;
-  std::array<uint32_t, 2 * Palette::kOutside + Palette::kWithin> colours{};
-
-  void add(const Palette& palette) {
-    from = static_cast<float>(palette.from);
-    to = static_cast<float>(palette.to);
-    size_t at = 0;
-    const auto put = [&](const Rgb& c) {
-      colours[at++] = c.red | uint32_t{c.green} << 8 | uint32_t{c.blue} << 16;
-    };
-    for (const Rgb& c : palette.below) put(c);
-    for (const Rgb& c : palette.within) put(c);
-    for (const Rgb& c : palette.above) put(c);
-    colours[0] |= palette.bands << 24;
-  }
-};
-static_assert(sizeof(Constants) == 124);
-
-uint32_t most_side(const Device& device) {
-  VkPhysicalDeviceProperties2 properties{};
-  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-  device.vk().GetPhysicalDeviceProperties2(device.physical(), &properties);
-  const VkPhysicalDeviceLimits& limits = properties.properties.limits;
-  return std::min({limits.maxImageDimension2D, limits.maxFramebufferWidth,
-                   limits.maxFramebufferHeight, limits.maxViewportDimensions[0],
-                   limits.maxViewportDimensions[1]});
+int samples_for(uint32_t width, uint32_t height) {
+  int n = kMostSamples;
+  while (n > 1 && uint64_t(n * n) * width * height > kMostInAll) --n;
+  return n;
 }
 
-uint32_t samples_for(const Device& device, uint32_t width, uint32_t height) {
-  if (!device.has_graphics()) {
-    throw DeviceError(device.description().name +
-                      " cannot draw a picture: its queue has no graphics; ask for another device");
-  }
-  const uint32_t most = most_side(device);
-  for (uint32_t n = kMostSamples; n > 0; --n) {
-    const bool fits = n * width <= most && n * height <= most;
-    if (fits && (n == 1 || uint64_t{n} * n * width * height <= kMostInAll)) return n;
-  }
-  throw UsageError("a picture of " + std::to_string(width) + "x" + std::to_string(height) +
-                   " is too large for " + device.description().name);
-}
-
-VkAttachmentDescription description_of(VkFormat format, VkImageLayout layout, bool clears) {
-  VkAttachmentDescription a{};
-  a.format = format;
-  a.samples = VK_SAMPLE_COUNT_1_BIT;
-  a.loadOp = clears ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-  a.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-  a.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-  a.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-  a.initialLayout = clears ? VK_IMAGE_LAYOUT_UNDEFINED : layout;
-  a.finalLayout = layout;
-  return a;
-}
-
-// Waits before a pass for another's drawing, or the copy of the last layer. After it: either.
-std::array<VkSubpassDependency, 2> dependencies() {
-  constexpr VkPipelineStageFlags kDraws = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                          VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-                                          VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-  constexpr VkPipelineStageFlags kCopies = VK_PIPELINE_STAGE_TRANSFER_BIT;
-  constexpr VkAccessFlags kWrites =
-      VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-  constexpr VkAccessFlags kReads =
-      VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
-  return {{{VK_SUBPASS_EXTERNAL, 0, kDraws | kCopies, kDraws, kWrites | VK_ACCESS_TRANSFER_READ_BIT,
-            kWrites | kReads, 0},
-           {0, VK_SUBPASS_EXTERNAL, kDraws, kDraws | kCopies, kWrites,
-            kWrites | kReads | VK_ACCESS_TRANSFER_READ_BIT, 0}}};
-}
-
-/// A shader; destroyed once a pipeline has it.
-class Shader {
+/// A bar's colours at even steps: a step is too short to be seen.
+class Colours {
  public:
-  template <size_t n>
-  Shader(const Device& device, const uint32_t (&words)[n]) : device_(device) {
-    VkShaderModuleCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    info.codeSize = sizeof(words);
-    info.pCode = words;
-    check_made(device.vk().CreateShaderModule(device.handle(), &info, nullptr, &module_), module_,
-               "creating a shader");
+  explicit Colours(const Palette& palette) {
+    at_[0] = kBelow;
+    at_[kSteps + 2] = kOver;
+    for (int i = 0; i <= kSteps; ++i)
+      at_[static_cast<size_t>(i) + 1] = palette.colour(static_cast<double>(i) / kSteps);
   }
-  ~Shader() { device_.vk().DestroyShaderModule(device_.handle(), module_, nullptr); }
-  Shader(const Shader&) = delete;
-  Shader& operator=(const Shader&) = delete;
-
-  VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits of) const {
-    VkPipelineShaderStageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage = of;
-    info.module = module_;
-    info.pName = "main";
-    return info;
+  Rgb operator()(float share) const {
+    if (share < 0) return at_.front();
+    return share > 1 ? at_.back() : at_[1 + static_cast<size_t>(share * kSteps + 0.5f)];
   }
 
  private:
-  const Device& device_;
-  VkShaderModule module_ = VK_NULL_HANDLE;
+  static constexpr int kSteps = 4096;
+  std::array<Rgb, kSteps + 3> at_;
 };
 
-constexpr VkVertexInputBindingDescription kBinding{0, sizeof(Corner), VK_VERTEX_INPUT_RATE_VERTEX};
-constexpr std::array<VkVertexInputAttributeDescription, 4> kInputs{
-    {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Corner, x)},
-     {1, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Corner, colour)},
-     {2, 0, VK_FORMAT_R8G8B8A8_UINT, offsetof(Corner, hatched)},
-     {3, 0, VK_FORMAT_R32_SFLOAT, offsetof(Corner, share)}}};
+/// Samples of a tile, row by row.
+struct Samples {
+  std::vector<float> depth;
+  std::vector<std::array<uint8_t, 4>> colour;
 
-/// All of a pipeline's state but shaders, layout and pass. Both sides of a face are drawn.
-struct FixedState {
-  VkPipelineVertexInputStateCreateInfo input{};
-  VkPipelineInputAssemblyStateCreateInfo assembly{};
-  VkPipelineViewportStateCreateInfo viewport{};
-  VkPipelineRasterizationStateCreateInfo raster{};
-  VkPipelineMultisampleStateCreateInfo samples{};
-  VkPipelineDepthStencilStateCreateInfo depth{};
-  VkPipelineColorBlendAttachmentState opaque{};
-  VkPipelineColorBlendStateCreateInfo blend{};
-  std::array<VkDynamicState, 2> states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-  VkPipelineDynamicStateCreateInfo dynamic{};
-
-  FixedState() {
-    input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-    input.vertexBindingDescriptionCount = 1;
-    input.pVertexBindingDescriptions = &kBinding;
-    input.vertexAttributeDescriptionCount = static_cast<uint32_t>(kInputs.size());
-    input.pVertexAttributeDescriptions = kInputs.data();
-    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-    viewport.viewportCount = viewport.scissorCount = 1;
-    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.lineWidth = 1;
-    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
-    depth.depthCompareOp = VK_COMPARE_OP_LESS;
-    opaque.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                            VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    blend.attachmentCount = 1;
-    blend.pAttachments = &opaque;
-    dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-    dynamic.dynamicStateCount = static_cast<uint32_t>(states.size());
-    dynamic.pDynamicStates = states.data();
+  void clear(size_t count) {
+    depth.assign(count, 2);
+    colour.assign(count, {255, 255, 255, 0});
   }
-  FixedState(const FixedState&) = delete;
-  FixedState& operator=(const FixedState&) = delete;
+};
 
-  VkGraphicsPipelineCreateInfo info() const {
-    VkGraphicsPipelineCreateInfo i{};
-    i.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-    i.pVertexInputState = &input;
-    i.pInputAssemblyState = &assembly;
-    i.pViewportState = &viewport;
-    i.pRasterizationState = &raster;
-    i.pMultisampleState = &samples;
-    i.pDepthStencilState = &depth;
-    i.pColorBlendState = &blend;
-    i.pDynamicState = &dynamic;
-    return i;
+/// A value that is affine over the samples.
+struct Plane {
+  float at_origin, by_x, by_y;
+  float at(int x, int y) const {
+    return at_origin + by_x * static_cast<float>(x) + by_y * static_cast<float>(y);
   }
+};
+
+/// Where samples lie on one side of a line, by integers: a sample on an edge that two faces share
+/// is of one of them.
+struct Edge {
+  int64_t at_origin, by_x, by_y;
+
+  /// Narrows [from, to) to the samples of row y that are inside.
+  void narrow(int y, int& from, int& to) const {
+    const int64_t row = at_origin + by_y * y;
+    if (by_x == 0) {
+      if (row < 0) to = from;
+    } else if (by_x > 0) {
+      const int64_t first = row >= 0 ? 0 : (-row + by_x - 1) / by_x;
+      from = static_cast<int>(std::clamp<int64_t>(first, from, std::max(from, to)));
+    } else {
+      to = static_cast<int>(std::min<int64_t>(to, row < 0 ? 0 : row / -by_x + 1));
+    }
+  }
+};
+
+using Triangle = std::array<std::array<int64_t, 2>, 3>;
+
+class Raster {
+ public:
+  explicit Raster(const RasterOptions& options)
+      : options_(options),
+        samples_(samples_for(options.width, options.height)),
+        colours_(options.palette),
+        columns_((options.width + kTile - 1) / kTile),
+        rows_((options.height + kTile - 1) / kTile),
+        kept_(columns_ * rows_) {
+    layer_.width = options.width;
+    layer_.height = options.height;
+    layer_.rgba.resize(size_t{4} * options.width * options.height);
+  }
+
+  Layer draw(size_t face_count, const FillFaces& fill) {
+    std::vector<Corner> corners(3 * std::min(face_count, kFacesAtOnce));
+    for (size_t first = 0; first < std::max<size_t>(face_count, 1); first += kFacesAtOnce) {
+      const size_t count = std::min(kFacesAtOnce, face_count - first);
+      fill(first, count, corners.data());
+      corners_ = {corners.data(), 3 * count};
+      sort_into_tiles(count);
+      const bool is_last = first + count >= face_count;
+      for_each_index(kept_.size(), [&](size_t tile) { draw_tile(tile, is_last); });
+    }
+    return std::move(layer_);
+  }
+
+ private:
+  int side() const { return samples_ * kTile; }
+
+  Triangle triangle_of(size_t face) const {
+    Triangle places;
+    const double scale = static_cast<double>(samples_ * kSub);
+    for (size_t i = 0; i < 3; ++i) {
+      const Corner& c = corners_[3 * face + i];
+      places[i] = {std::llround(static_cast<double>(c.x) * scale),
+                   std::llround(static_cast<double>(c.y) * scale)};
+    }
+    return places;
+  }
+
+  /// The first and the last tile, by column and row, that a face may touch; none: first > last.
+  struct Range {
+    int64_t x0, y0, x1, y1;
+  };
+  Range tiles_of(size_t face) const {
+    const Triangle p = triangle_of(face);
+    const int64_t size = side() * kSub;
+    const auto [x0, x1] = std::minmax({p[0][0], p[1][0], p[2][0]});
+    const auto [y0, y1] = std::minmax({p[0][1], p[1][1], p[2][1]});
+    const auto clamp = [](int64_t at, size_t count) {
+      return std::clamp<int64_t>(at, 0, static_cast<int64_t>(count) - 1);
+    };
+    if (x1 < 0 || y1 < 0) return {1, 1, 0, 0};
+    return {clamp(x0 / size, columns_), clamp(y0 / size, rows_), clamp(x1 / size, columns_),
+            clamp(y1 / size, rows_)};
+  }
+  template <class Visit>
+  void for_tiles(size_t face, const Visit& visit) const {
+    const Range r = tiles_of(face);
+    for (int64_t y = r.y0; y <= r.y1; ++y) {
+      for (int64_t x = r.x0; x <= r.x1; ++x)
+        visit(static_cast<size_t>(y) * columns_ + static_cast<size_t>(x));
+    }
+  }
+
+  /// Lists the faces of each tile in their order: pieces count theirs, then write them.
+  void sort_into_tiles(size_t count) {
+    const size_t tiles = kept_.size(), pieces = (count + kPiece - 1) / kPiece;
+    std::vector<size_t> to(pieces * tiles);  // by tile, then by piece
+    for_each_range_of(kPiece, count, [&](size_t piece, size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f)
+        for_tiles(f, [&](size_t tile) { ++to[tile * pieces + piece]; });
+    });
+    begins_.assign(1, 0);
+    size_t sum = 0;
+    for (size_t i = 0; i < to.size(); ++i) {
+      sum += std::exchange(to[i], sum);
+      if ((i + 1) % pieces == 0) begins_.push_back(sum);
+    }
+    begins_.resize(tiles + 1, 0);
+    faces_.resize(sum);
+    for_each_range_of(kPiece, count, [&](size_t piece, size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f)
+        for_tiles(f, [&](size_t tile) {
+          faces_[to[tile * pieces + piece]++] = static_cast<uint32_t>(f);
+        });
+    });
+  }
+
+  void draw_tile(size_t tile, bool is_last) {
+    Samples samples = std::move(kept_[tile]);
+    const bool is_empty = begins_[tile] == begins_[tile + 1] && samples.depth.empty();
+    if (!is_empty && samples.depth.empty())
+      samples.clear(static_cast<size_t>(side()) * static_cast<size_t>(side()));
+    for (size_t i = begins_[tile]; i < begins_[tile + 1]; ++i) draw_face(faces_[i], tile, samples);
+    if (is_last) {
+      average(tile, samples);
+    } else {
+      kept_[tile] = std::move(samples);
+    }
+  }
+
+  /// A face in the samples of a tile.
+  struct Shape {
+    std::array<Edge, 3> edges;
+    std::array<Plane, 2> weights;  ///< of the second and the third corner
+    Plane depth, share;
+    int y0, y1;
+  };
+  int origin_x(size_t tile) const { return static_cast<int>(tile % columns_) * side(); }
+  int origin_y(size_t tile) const { return static_cast<int>(tile / columns_) * side(); }
+
+  /// Whether the face has an area; both of its sides are seen.
+  bool shape_of(size_t face, size_t tile, Shape& shape) const {
+    Triangle p = triangle_of(face);
+    std::array<size_t, 3> order{0, 1, 2};
+    const auto twice_area = [&] {
+      return (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);
+    };
+    int64_t area = twice_area();
+    if (area == 0) return false;
+    if (area < 0) {
+      std::swap(p[1], p[2]);
+      std::swap(order[1], order[2]);
+      area = -area;
+    }
+    const int64_t x = kSub * origin_x(tile) + kSub / 2, y = kSub * origin_y(tile) + kSub / 2;
+    for (size_t i = 0; i < 3; ++i) {  // the edge that faces corner i
+      const auto &a = p[(i + 1) % 3], &b = p[(i + 2) % 3];
+      const int64_t dx = b[0] - a[0], dy = b[1] - a[1];
+      const bool has_its_samples = dy > 0 || (dy == 0 && dx > 0);
+      shape.edges[i] = {dx * (y - a[1]) - dy * (x - a[0]) - (has_its_samples ? 0 : 1), -dy * kSub,
+                        dx * kSub};
+    }
+    const auto [least, most] = std::minmax({p[0][1], p[1][1], p[2][1]});
+    shape.y0 = static_cast<int>(std::clamp<int64_t>((least - y) / kSub, 0, side()));
+    shape.y1 = static_cast<int>(std::clamp<int64_t>((most - y) / kSub + 1, 0, side()));
+    set_planes(face, order, static_cast<double>(area), shape);
+    return true;
+  }
+
+  void set_planes(size_t face, const std::array<size_t, 3>& order, double area,
+                  Shape& shape) const {
+    const auto weight = [&](size_t i) {
+      const Edge& e = shape.edges[i];
+      return std::array<double, 3>{static_cast<double>(e.at_origin) / area,
+                                   static_cast<double>(e.by_x) / area,
+                                   static_cast<double>(e.by_y) / area};
+    };
+    const std::array<double, 3> one = weight(1), two = weight(2);
+    const auto plane = [&](double a, double b, double c) {
+      const double u = b - a, v = c - a;
+      return Plane{static_cast<float>(a + u * one[0] + v * two[0]),
+                   static_cast<float>(u * one[1] + v * two[1]),
+                   static_cast<float>(u * one[2] + v * two[2])};
+    };
+    const Corner* c = &corners_[3 * face];
+    const Corner &p = c[order[0]], &q = c[order[1]], &r = c[order[2]];
+    shape.depth =
+        plane(static_cast<double>(p.z), static_cast<double>(q.z), static_cast<double>(r.z));
+    shape.share = plane(static_cast<double>(p.share), static_cast<double>(q.share),
+                        static_cast<double>(r.share));
+    shape.weights = {plane(0, 1, 0), plane(0, 0, 1)};
+  }
+
+  void draw_face(size_t face, size_t tile, Samples& samples) const {
+    Shape shape;
+    if (!shape_of(face, tile, shape)) return;
+    const Corner& look = corners_[3 * face];
+    for (int y = shape.y0; y < shape.y1; ++y) {
+      int from = 0, to = side();
+      for (const Edge& edge : shape.edges) edge.narrow(y, from, to);
+      if (from >= to) continue;
+      const size_t row = static_cast<size_t>(y) * static_cast<size_t>(side());
+      for (int x = from; x < to; ++x) {
+        const float depth = shape.depth.at(x, y);
+        const size_t at = row + static_cast<size_t>(x);
+        if (!(depth < samples.depth[at])) continue;
+        const float off = look.is_disc != 0 ? from_middle(shape, x, y) : 0;
+        if (off > 1) continue;
+        samples.depth[at] = depth;
+        samples.colour[at] = colour_at(look, shape, {x, y}, {tile, off});
+      }
+    }
+  }
+
+  /// The square of the distance from a regular triangle's middle: 1 on the inscribed circle.
+  static float from_middle(const Shape& shape, int x, int y) {
+    const float v = shape.weights[0].at(x, y) - 1 / 3.0f, w = shape.weights[1].at(x, y) - 1 / 3.0f;
+    return 6 * (v * v + w * w + (v + w) * (v + w));
+  }
+
+  struct Sample {
+    int x, y;
+  };
+  struct Drawn {
+    size_t tile;
+    float off;
+  };
+  std::array<uint8_t, 4> colour_at(const Corner& look, const Shape& shape, Sample at,
+                                   Drawn in) const {
+    Rgb shown{look.colour[0], look.colour[1], look.colour[2]};
+    if (look.by_share != 0) {
+      const Rgb c = colours_(shape.share.at(at.x, at.y));
+      const auto lit = [&](uint8_t part) {
+        return static_cast<uint8_t>((part * look.colour[0] + 127) / 255);
+      };
+      shown = {lit(c.red), lit(c.green), lit(c.blue)};
+    }
+    if (look.hatched != 0 && is_stripe(origin_x(in.tile) + at.x + origin_y(in.tile) + at.y))
+      shown = kStripe;
+    if (look.is_disc != 0) {
+      constexpr float kRim = 0.3f;  // the darkness of a rim, which tells discs from each other
+      const float light = 1 - kRim * in.off * in.off;
+      const auto lit = [&](uint8_t part) {
+        return static_cast<uint8_t>(static_cast<float>(part) * light + 0.5f);
+      };
+      shown = {lit(shown.red), lit(shown.green), lit(shown.blue)};
+    }
+    return {shown.red, shown.green, shown.blue, 255};
+  }
+
+  bool is_stripe(int along) const {
+    constexpr double kLines = 7;  // of a period
+    const double at = (along + 1) / (kLines * options_.line * samples_);
+    return at - std::floor(at) < kStripeShare;
+  }
+
+  /// Writes a tile's pixels. One without samples is white, and covers nothing.
+  void average(size_t tile, const Samples& samples) {
+    const size_t n = static_cast<size_t>(samples_), in_all = n * n;
+    const size_t x0 = tile % columns_ * kTile, y0 = tile / columns_ * kTile;
+    const size_t x1 = std::min<size_t>(x0 + kTile, options_.width);
+    const size_t y1 = std::min<size_t>(y0 + kTile, options_.height);
+    for (size_t y = y0; y < y1; ++y) {
+      for (size_t x = x0; x < x1; ++x) {
+        std::array<size_t, 4> sum{255 * in_all, 255 * in_all, 255 * in_all, 0};
+        if (!samples.colour.empty()) sum = sum_of(samples, (x - x0) * n, (y - y0) * n);
+        for (size_t i = 0; i < 4; ++i)
+          layer_.rgba[4 * (y * options_.width + x) + i] =
+              static_cast<uint8_t>((sum[i] + in_all / 2) / in_all);
+      }
+    }
+  }
+  std::array<size_t, 4> sum_of(const Samples& samples, size_t x, size_t y) const {
+    std::array<size_t, 4> sum{};
+    const size_t n = static_cast<size_t>(samples_);
+    for (size_t j = y; j < y + n; ++j) {
+      for (size_t k = x; k < x + n; ++k) {
+        const auto& c = samples.colour[j * static_cast<size_t>(side()) + k];
+        for (size_t i = 0; i < 4; ++i) sum[i] += c[i];
+      }
+    }
+    return sum;
+  }
+
+  const RasterOptions& options_;
+  int samples_;  ///< per side of a pixel
+  Colours colours_;
+  size_t columns_, rows_;      ///< of tiles
+  std::vector<Samples> kept_;  ///< of each tile, from one lot of faces to the next
+  std::span<const Corner> corners_;
+  std::vector<size_t> begins_;  ///< of each tile's faces in `faces_`, and the end
+  std::vector<uint32_t> faces_;
+  Layer layer_;
 };
 
 }  // namespace
 
-Raster::Raster(const Device& device, Empty, uint32_t width, uint32_t height)
-    : device_(device),
-      samples_(samples_for(device, width, height)),
-      extent_{samples_ * width, samples_ * height},
-      colour_(device, extent_, kColourKind),
-      depth_(device, extent_, kDepthKind),
-      submitter_(device),
-      corners_(device, 3 * kFacesAtOnce * sizeof(Corner), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
-               Placement::kUpload),
-      read_(device, VkDeviceSize{4} * extent_.width * extent_.height,
-            VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback),
-      pipeline_(device) {}
-
-// Delegates, here and below: what was created is destroyed if a later step throws.
-Raster::Raster(const Device& device, uint32_t width, uint32_t height)
-    : Raster(device, Empty{}, width, height) {
-  make_framebuffer();
-}
-
-Raster::~Raster() { device_.vk().DestroyFramebuffer(device_.handle(), framebuffer_, nullptr); }
-
-RasterPipeline::RasterPipeline(const Device& device) : RasterPipeline(device, Empty{}) {
-  clearing_ = make_pass(true);
-  keeping_ = make_pass(false);
-  make_layout();
-  make_pipeline();
-}
-
-RasterPipeline::~RasterPipeline() {
-  const VulkanApi& vk = device_.vk();
-  vk.DestroyPipeline(device_.handle(), pipeline_, nullptr);
-  vk.DestroyPipelineLayout(device_.handle(), layout_, nullptr);
-  vk.DestroyRenderPass(device_.handle(), keeping_, nullptr);
-  vk.DestroyRenderPass(device_.handle(), clearing_, nullptr);
-}
-
-VkRenderPass RasterPipeline::make_pass(bool clears) {
-  const std::array<VkAttachmentDescription, 2> attachments = {
-      description_of(kColour, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, clears),
-      description_of(kDepth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, clears)};
-  const VkAttachmentReference colour{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-  const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
-  VkSubpassDescription subpass{};
-  subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-  subpass.colorAttachmentCount = 1;
-  subpass.pColorAttachments = &colour;
-  subpass.pDepthStencilAttachment = &depth;
-  const auto waits = dependencies();
-  VkRenderPassCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
-  info.attachmentCount = static_cast<uint32_t>(attachments.size());
-  info.pAttachments = attachments.data();
-  info.subpassCount = 1;
-  info.pSubpasses = &subpass;
-  info.dependencyCount = static_cast<uint32_t>(waits.size());
-  info.pDependencies = waits.data();
-  VkRenderPass pass = VK_NULL_HANDLE;
-  check_made(device_.vk().CreateRenderPass(device_.handle(), &info, nullptr, &pass), pass,
-             "creating a render pass");
-  return pass;
-}
-
-void Raster::make_framebuffer() {
-  const std::array<VkImageView, 2> views = {colour_.view(), depth_.view()};
-  VkFramebufferCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-  info.renderPass = pipeline_.clearing();  // the other one is compatible
-  info.attachmentCount = static_cast<uint32_t>(views.size());
-  info.pAttachments = views.data();
-  info.width = extent_.width;
-  info.height = extent_.height;
-  info.layers = 1;
-  check_made(device_.vk().CreateFramebuffer(device_.handle(), &info, nullptr, &framebuffer_),
-             framebuffer_, "creating a framebuffer");
-}
-
-void RasterPipeline::make_layout() {
-  const VkPushConstantRange constants{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Constants)};
-  VkPipelineLayoutCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-  info.pushConstantRangeCount = 1;
-  info.pPushConstantRanges = &constants;
-  check_made(device_.vk().CreatePipelineLayout(device_.handle(), &info, nullptr, &layout_), layout_,
-             "creating a pipeline layout");
-}
-
-void RasterPipeline::make_pipeline() {
-  const Shader vertex(device_, k_mesh_vert), fragment(device_, k_mesh_frag);
-  const std::array<VkPipelineShaderStageCreateInfo, 2> stages = {
-      vertex.stage(VK_SHADER_STAGE_VERTEX_BIT), fragment.stage(VK_SHADER_STAGE_FRAGMENT_BIT)};
-  const FixedState state;
-  VkGraphicsPipelineCreateInfo info = state.info();
-  info.stageCount = static_cast<uint32_t>(stages.size());
-  info.pStages = stages.data();
-  info.layout = layout_;
-  info.renderPass = clearing_;
-  check_made(device_.vk().CreateGraphicsPipelines(device_.handle(), VK_NULL_HANDLE, 1, &info,
-                                                  nullptr, &pipeline_),
-             pipeline_, "creating a graphics pipeline");
-}
-
-void Raster::draw_some(VkExtent2D samples, double line, size_t face_count, bool first) {
-  constexpr double kHatchLines = 7;  // a period, in widths of lines
-  const VulkanApi& vk = device_.vk();
-  const VkCommandBuffer commands = submitter_.begin();
-  std::array<VkClearValue, 2> clear{};
-  clear[0].color = {{1, 1, 1, 0}};
-  clear[1].depthStencil = {1, 0};
-  VkRenderPassBeginInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-  info.renderPass = first ? pipeline_.clearing() : pipeline_.keeping();
-  info.framebuffer = framebuffer_;
-  info.renderArea.extent = samples;
-  info.clearValueCount = static_cast<uint32_t>(clear.size());
-  info.pClearValues = clear.data();
-  vk.CmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
-  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.pipeline());
-  const VkViewport viewport{
-      0, 0, static_cast<float>(samples.width), static_cast<float>(samples.height), 0, 1};
-  const VkRect2D scissor{{0, 0}, samples};
-  vk.CmdSetViewport(commands, 0, 1, &viewport);
-  vk.CmdSetScissor(commands, 0, 1, &scissor);
-  Constants constants{
-      .hatch_period = static_cast<float>(line * samples_ * kHatchLines), .from = 0, .to = 1};
-  constants.add(palette_);
-  vk.CmdPushConstants(commands, pipeline_.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0,
-                      sizeof(constants), &constants);
-  const VkBuffer corners = corners_.handle();
-  const VkDeviceSize offset = 0;
-  vk.CmdBindVertexBuffers(commands, 0, 1, &corners, &offset);
-  vk.CmdDraw(commands, static_cast<uint32_t>(3 * face_count), 1, 0, 0);
-  vk.CmdEndRenderPass(commands);
-  submitter_.submit_and_wait({});
-}
-
-void Raster::read_back(VkExtent2D samples) {
-  const VulkanApi& vk = device_.vk();
-  const VkCommandBuffer commands = submitter_.begin();
-  VkBufferImageCopy copy{};
-  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  copy.imageExtent = {samples.width, samples.height, 1};
-  vk.CmdCopyImageToBuffer(commands, colour_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                          read_.handle(), 1, &copy);
-  VkMemoryBarrier barrier{};
-  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-  barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-  barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-  vk.CmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
-                        &barrier, 0, nullptr, 0, nullptr);
-  submitter_.submit_and_wait({});
-}
-
-Layer Raster::averaged(VkExtent2D pixels) const {
-  Layer layer{pixels.width, pixels.height, {}};
-  layer.rgba.resize(size_t{4} * pixels.width * pixels.height);
-  const auto* from = reinterpret_cast<const uint8_t*>(read_.mapped());
-  const size_t row = size_t{4} * pixels.width * samples_;
-  const uint32_t in_all = samples_ * samples_;
-  for_each_index(pixels.height, [&](size_t y) {
-    std::vector<uint16_t> sums(row);  // of the rows' samples one below the other
-    for (uint32_t j = 0; j < samples_; ++j) {
-      const uint8_t* line = from + (y * samples_ + j) * row;
-      for (size_t i = 0; i < row; ++i) sums[i] = static_cast<uint16_t>(sums[i] + line[i]);
-    }
-    uint8_t* to = &layer.rgba[y * 4 * pixels.width];
-    for (size_t at = 0; at < size_t{4} * pixels.width; ++at) {
-      const uint16_t* first = &sums[at / 4 * samples_ * 4 + at % 4];
-      uint32_t sum = in_all / 2;
-      for (uint32_t i = 0; i < samples_; ++i) sum += first[size_t{4} * i];
-      to[at] = static_cast<uint8_t>(sum / in_all);
-    }
-  });
-  return layer;
-}
-
-Layer Raster::draw(VkExtent2D pixels, double line, size_t face_count, const FillFaces& fill) {
-  const VkExtent2D samples{samples_ * pixels.width, samples_ * pixels.height};
-  auto* corners = reinterpret_cast<Corner*>(corners_.mapped());
-  for (size_t first = 0; first < face_count; first += kFacesAtOnce) {
-    const size_t count = std::min(kFacesAtOnce, face_count - first);
-    fill(first, count, corners);
-    draw_some(samples, line, count, first == 0);
-  }
-  read_back(samples);
-  return averaged(pixels);
+Layer rasterized(const RasterOptions& options, size_t face_count, const FillFaces& fill) {
+  return Raster(options).draw(face_count, fill);
 }
 
 }  // namespace vkh::drawing

@@ -11,7 +11,7 @@ void put_disc(const Camera& camera, const glm::dvec3& pixel, const Corner& look,
   constexpr std::array<glm::dvec2, 3> kWays{glm::dvec2{0, -1}, glm::dvec2{kHalfRoot3, 0.5},
                                             glm::dvec2{-kHalfRoot3, 0.5}};
   for (size_t i = 0; i < kWays.size(); ++i) {
-    corners[i] = look.placed_at(camera.clipped(pixel + glm::dvec3(far * kWays[i], 0)));
+    corners[i] = look.placed_at(camera.placed(pixel + glm::dvec3(far * kWays[i], 0)));
     corners[i].is_disc = 1;
   }
 }

@@ -5,7 +5,7 @@
 
 namespace vkh::drawing {
 
-/// Writes a disc around `pixel` as a triangle around it, out of which mesh.frag cuts it. `look`: a
+/// Writes a disc around `pixel` as a triangle around it, out of which the raster cuts it. `look`: a
 /// corner's colours.
 void put_disc(const Camera& camera, const glm::dvec3& pixel, const Corner& look, Corner* corners);
 

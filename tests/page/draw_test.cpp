@@ -11,7 +11,6 @@
 #include <cmath>
 
 #include "host/show/mapped_picture.h"
-#include "tests/support/kernel_bench.h"
 #include "vkhausdorff/error.h"
 
 namespace {
@@ -19,8 +18,6 @@ namespace {
 using namespace vkh;
 
 constexpr Rgb kStripe{74, 64, 51};
-
-const Device& device() { return test::drawing_device(); }
 
 /// Two faces, each on its side of x = 0, seen whole from above.
 Mesh two_faces() {
@@ -80,7 +77,7 @@ TEST_CASE("without a map a face has the colour of the middle of its bounds") {
   for (const ColourMap map : {ColourMap::kViridis, ColourMap::kBatlow, ColourMap::kCividis}) {
     PictureOptions options = from_above();
     options.map = map;
-    const Image image = draw(device(), picture, options);
+    const Image image = draw(picture, options);
     CHECK(image.width == options.width);
     CHECK(image.rgba.size() == size_t{4} * options.width * options.height);
     const Found left = find(image, colour_of(picture, options, 0.25));
@@ -99,7 +96,7 @@ TEST_CASE("a range is the same for each picture of a batch") {
   const Picture picture{.mesh = mesh, .field = field, .interval = {3, 4}};
   PictureOptions options = from_above();
   options.range = Enclosure{0, 0.5};
-  const Image image = draw(device(), picture, options);
+  const Image image = draw(picture, options);
   CHECK(find(image, map_colour(ColourMap::kViridis, 0.5)).count > 8000);
   CHECK(find(image, drawing::kOver).count > 8000);
 }
@@ -109,7 +106,7 @@ TEST_CASE("a face without a bound is hatched") {
   const Field field{{1, 0}, {1, std::numeric_limits<double>::infinity()}};
   const Picture picture{
       .mesh = mesh, .field = field, .interval = {0, std::numeric_limits<double>::infinity()}};
-  const Image image = draw(device(), picture, from_above());
+  const Image image = draw(picture, from_above());
   CHECK(find(image, kStripe).count > 1500);
   CHECK(find(image, colour_of(picture, from_above(), 1)).count > 8000);
 }
@@ -127,7 +124,7 @@ TEST_CASE("the same picture has the same bytes") {
   for (const View::Kind kind : {View::Kind::kIso, View::Kind::kSix}) {
     PictureOptions options = from_above();
     options.view.kind = kind;
-    CHECK(draw(device(), picture, options).rgba == draw(device(), picture, options).rgba);
+    CHECK(draw(picture, options).rgba == draw(picture, options).rgba);
   }
 }
 
@@ -142,7 +139,7 @@ TEST_CASE("meshes and bounds without extent are drawn") {
       Picture picture{.mesh = mesh, .field = field, .interval = {h, h}};
       const SurfacePoint p{0, {1, 0, 0}, mesh.vertices[0]};
       picture.witness = Witness{p, p};
-      const Image image = draw(device(), picture, from_above());
+      const Image image = draw(picture, from_above());
       const Rgb colour = colour_of(picture, from_above(), h);
       if (mesh.name == "triangle") CHECK(find(image, colour).count > 10000);
     }
@@ -154,7 +151,7 @@ TEST_CASE("a coordinate far from the origin keeps its place") {
   for (glm::dvec3& v : mesh.vertices) v = v * 0x1p-10 + glm::dvec3(0x1p20, -0x1p20, 0x1p19);
   const Field field{{0.25, 1}, {0.25, 1}};
   const Picture picture{.mesh = mesh, .field = field, .interval = {0.9, 1}};
-  const Image image = draw(device(), picture, from_above());
+  const Image image = draw(picture, from_above());
   const Found left = find(image, colour_of(picture, from_above(), 0.25));
   CHECK(left.count > 8000);
   CHECK(left.x + 50 < find(image, colour_of(picture, from_above(), 1)).x);
@@ -180,7 +177,7 @@ TEST_CASE("of many faces the first and the last are drawn") {
     if (face >= size_t{1} << 19) field.lower[face] = field.upper[face] = 1;
   }
   const Picture picture{.mesh = mesh, .field = field, .interval = {1, 1}};
-  const Image image = draw(device(), picture, from_above());
+  const Image image = draw(picture, from_above());
   const Found first = find(image, colour_of(picture, from_above(), 0));
   CHECK(first.count > 20000);
   const Found last = find(image, colour_of(picture, from_above(), 1));
@@ -194,7 +191,7 @@ TEST_CASE("steps of colour are as many as was asked for") {
   const Picture picture{.mesh = mesh, .field = field, .interval = {0.4, 1}};
   PictureOptions options = from_above();
   options.bands = 4;
-  const Image image = draw(device(), picture, options);
+  const Image image = draw(picture, options);
   CHECK(find(image, colour_of(picture, options, 0.3)).count > 16000);
 }
 
@@ -207,15 +204,14 @@ TEST_CASE("a picture of any size has room for all of it") {
     PictureOptions options = from_above();
     options.range = Enclosure{0, 0.5};
     parse_picture_size("--size", size, options);
-    CHECK(find(draw(device(), picture, options), kStripe).count > 300);
+    CHECK(find(draw(picture, options), kStripe).count > 300);
   }
 }
 
 TEST_CASE("another program reads the PNG") {
   const Mesh mesh = two_faces();
   const Field field{{0, 0}, {0.25, 1}};
-  const Image image =
-      draw(device(), {.mesh = mesh, .field = field, .interval = {0.9, 1}}, from_above());
+  const Image image = draw({.mesh = mesh, .field = field, .interval = {0.9, 1}}, from_above());
   const std::string file = encode_png(image);
   int width = 0, height = 0, channels = 0;
   uint8_t* pixels =
@@ -233,19 +229,18 @@ TEST_CASE("what makes no sense is refused") {
   const Mesh mesh = two_faces();
   const Field field{{0, 0}, {0.25, 1}}, short_one{{0}, {1}};
   const Picture picture{.mesh = mesh, .field = field, .interval = {0.9, 1}};
-  CHECK_THROWS_AS(draw(device(), {.mesh = mesh, .field = short_one, .interval = {}}),
-                  std::invalid_argument);
+  CHECK_THROWS_AS(draw({.mesh = mesh, .field = short_one, .interval = {}}), std::invalid_argument);
   PictureOptions options = from_above();
   options.width = 100;
-  CHECK_THROWS_AS(draw(device(), picture, options), UsageError);
+  CHECK_THROWS_AS(draw(picture, options), UsageError);
   options = from_above();
   options.range = Enclosure{2, 1};
-  CHECK_THROWS_AS(draw(device(), picture, options), UsageError);
+  CHECK_THROWS_AS(draw(picture, options), UsageError);
   options.range = Enclosure{0, std::numeric_limits<double>::infinity()};
-  CHECK_THROWS_AS(draw(device(), picture, options), UsageError);
+  CHECK_THROWS_AS(draw(picture, options), UsageError);
   Mesh vast = mesh;
   for (glm::dvec3& v : vast.vertices) v *= 1e200;
-  CHECK_THROWS_AS(draw(device(), {.mesh = vast, .field = field, .interval = {}}), UsageError);
+  CHECK_THROWS_AS(draw({.mesh = vast, .field = field, .interval = {}}), UsageError);
 }
 
 }  // namespace

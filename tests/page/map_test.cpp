@@ -10,7 +10,6 @@
 #include "host/show/map_places.h"
 #include "host/show/map_scale.h"
 #include "host/survey/cell_corners.h"
-#include "tests/support/kernel_bench.h"
 
 namespace {
 
@@ -74,7 +73,7 @@ struct Drawn {
   Drawn(const Drawn&) = delete;
   Drawn& operator=(const Drawn&) = delete;
 
-  Image image() const { return draw(test::drawing_device(), picture, options); }
+  Image image() const { return draw(picture, options); }
   /// The number of pixels among the views that have about this colour, lit from the front.
   size_t count(Rgb colour) const {
     const Image all = image();

@@ -62,16 +62,6 @@ Device& test_device() {
   return made()->device;
 }
 
-const Device& drawing_device() {
-  const Device& made = test_device();
-  if (!made.has_graphics()) {
-    std::puts("SKIP: the device draws nothing");
-    std::fflush(nullptr);
-    std::_Exit(77);
-  }
-  return made;
-}
-
 VkhContextCreateInfo create_info(uint32_t switches, VkhDeviceKind kind, VkBool32 by_address,
                                  VkBool32 checks) {
   VkhContextCreateInfo info{};

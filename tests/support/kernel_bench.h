@@ -42,9 +42,6 @@ inline void release_kept() {
 /// VKH_TEST_BY_ADDRESS is not empty.
 vkh::Device& test_device();
 
-/// The same; skips the test program where it draws nothing.
-const vkh::Device& drawing_device();
-
 /// A context on the test device; `switches` has VkhContextFlagBits, too; `checks`: of its input.
 VkhContextCreateInfo create_info(uint32_t switches, VkhDeviceKind kind,
                                  VkBool32 by_address = VK_FALSE, VkBool32 checks = VK_FALSE);

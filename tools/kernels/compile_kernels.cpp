@@ -23,7 +23,6 @@
 #include "engine/kernels.h"
 #include "engine/vkhausdorff_experimental.h"
 #include "host/app/self_test.h"
-#include "host/show/raster.h"
 #include "tools/kernels/pipeline_statistics.h"
 #include "vkhausdorff/device.h"
 #include "vkhausdorff/error.h"
@@ -106,13 +105,6 @@ int missing(const Names& compiled, VkBool32 by_address) {
   return count;
 }
 
-// mesh.vert and mesh.frag.
-const char* compile_pictures(const vkh::Device& device) {
-  if (!device.has_graphics()) return "no pictures: its queue has no graphics";
-  const vkh::drawing::RasterPipeline pipeline(device);
-  return "and those of pictures";
-}
-
 // The device is never destroyed: RADV crashes if it waits for a card that is not there.
 int compile_here() {
   const vkh::Device& device = *new vkh::Device;
@@ -120,9 +112,8 @@ int compile_here() {
   const bool has_addresses = device.has_addresses();
   if (has_addresses) failed += missing(compile_all(device.engine_info(), VK_TRUE), VK_TRUE);
   vkh::compile_self_test(device);
-  const char* pictures = compile_pictures(device);
   std::cout << device.description().name << ": " << kKernels.size() + 1 << " kernels, "
-            << (has_addresses ? "also by address, " : "none by address, ") << pictures << '\n';
+            << (has_addresses ? "also by address" : "none by address") << '\n';
   return failed == 0 ? 0 : 1;
 }
 

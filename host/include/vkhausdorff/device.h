@@ -69,8 +69,6 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queue_family() const { return queue_family_; }
   VkPhysicalDevice physical() const { return physical_; }
-  /// Whether its queue's family draws too; pictures need that (host/show).
-  bool has_graphics() const { return has_graphics_; }
   std::mutex& queue_mutex() const { return *queue_mutex_; }
   /// Whether the queue has timestamps: not every adopted family does, and GPU times are then not
   /// measured.
@@ -107,7 +105,6 @@ class Device {
   mutable std::mutex own_mutex_;
   std::mutex* queue_mutex_ = &own_mutex_;
   bool owned_ = true;
-  bool has_graphics_ = false;
   bool has_timestamps_ = true;
   bool has_addresses_ = false;
   bool maps_memory_ = true;

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "host/app/self_test.h"
-#include "host/show/draw.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/tally.h"
 #include "tests/verification/faults/trial.h"
@@ -99,22 +98,6 @@ TEST_CASE("the self-test of the doctor") {
   try_all("doctor", work, Places::kFirst);
   CHECK(device.validation_messages() == 0);
 }
-
-#ifdef VKH_HAS_STB
-TEST_CASE("a picture") {
-  Device device(request(is_validated()));
-  const Mesh mesh = icosphere(1, 0);
-  const std::vector<double> bounds(mesh.faces.size(), 1);
-  const Field field{bounds, bounds};
-  const auto work = [&] {
-    const PictureOptions options{.width = kLeastPictureWidth, .height = kLeastPictureHeight};
-    const Picture picture{.mesh = mesh, .field = field, .interval = {1, 1}};
-    return std::to_string(draw(device, picture, options).rgba.size()) + " bytes";
-  };
-  try_all("picture", work);
-  CHECK(device.validation_messages() == 0);
-}
-#endif
 
 /// A solver that is kept, whose buffers go between two trials.
 struct Kept {

@@ -18,7 +18,7 @@ void main() {
   flags = look.y;
   gl_Position = projectionMatrix * seen;
 }`;
-// The colours, the light and the stripes of pictures (host/show/mesh.frag, light.h). The tolerance is a part of the bar, from low to high.
+// The colours, the light and the stripes of pictures (host/show/raster.cpp, light.h). The tolerance is a part of the bar, from low to high.
 const FRAGMENT = `
 uniform sampler2D colours;
 uniform float from, to, low, high, bands, stripe, pointSize, reach;
