@@ -36,7 +36,7 @@ class Colours {
   }
   Rgb operator()(float share) const {
     if (share < 0) return at_.front();
-    return share > 1 ? at_.back() : at_[1 + static_cast<size_t>(share * kSteps + 0.5f)];
+    return share > 1 ? at_.back() : at_[1 + static_cast<size_t>(share * kSteps)];
   }
 
  private:
@@ -300,7 +300,7 @@ class Raster {
       constexpr float kRim = 0.3f;  // the darkness of a rim, which tells discs from each other
       const float light = 1 - kRim * in.off * in.off;
       const auto lit = [&](uint8_t part) {
-        return static_cast<uint8_t>(static_cast<float>(part) * light + 0.5f);
+        return static_cast<uint8_t>(std::lround(static_cast<float>(part) * light));
       };
       shown = {lit(shown.red), lit(shown.green), lit(shown.blue)};
     }
