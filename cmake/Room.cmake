@@ -8,7 +8,9 @@ endif()
 if(NOT VKH_UNITY)  # what most files of the host include: with more in it, it costs more than it saves (docs/log/build.md)
   vkh_precompiled(vkh_room_headers "vkh_flags;vkh_hardening;glm::glm"
     <algorithm> <array> <cmath> <functional> <glm/geometric.hpp> <limits> <map> <memory> <optional> <span> <string> <vector>)
-  target_compile_features(vkh_room_headers PRIVATE cxx_std_20)
+  if(TARGET vkh_room_headers)
+    target_compile_features(vkh_room_headers PRIVATE cxx_std_20)
+  endif()
 endif()
 
 # vkh_room(NAME [COLD] [WITHOUT FILE] [GENERATED FILE...] [DEFINITIONS NAME...] [LIBRARIES TARGET...]): the sources of the
