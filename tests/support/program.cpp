@@ -49,6 +49,7 @@ std::string without_progress(const std::string& err) {
 Running start(const Words& words, const std::string& out) {
   const char* program = std::getenv("VKH_PROGRAM");
   REQUIRE_MESSAGE(program != nullptr, "VKH_PROGRAM must name the program under test");
+  REQUIRE_MESSAGE(access(program, X_OK) == 0, program << " is not built: ninja vkhausdorff");
   std::vector<char*> arguments{const_cast<char*>(program)};
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
