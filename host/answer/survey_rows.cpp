@@ -1,7 +1,10 @@
 // Surveys and metrics as rows of the table.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
+#include "host/answer/figures.h"
 #include "host/base/decimal.h"
 #include "vkhausdorff/answer.h"
 
@@ -234,41 +237,42 @@ std::string in_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-std::string metric_unit(const Answer& answer, int dimension) {
-  if (dimension == 0) return "";
-  return answer.unit.empty() || dimension == 1 ? answer.unit : answer.unit + "^2";
-}
-
-std::string goal_text(const Metric& metric) {
-  if (metric.is_met) return "";
-  return metric.jump ? "; a jump of the distribution: no --effort narrows it"
+std::string goal_text(const AnswerFigure& figure) {
+  if (figure.is_met) return "";
+  return figure.jump ? "; a jump of the distribution: no --effort narrows it"
                      : "; wider than asked: more --effort narrows it";
 }
 
-std::string metric_text(const Metric& metric, const std::string& unit) {
+std::string metric_text(const AnswerFigure& metric, const std::string& unit) {
   const Enclosure& e = metric.value;
   if (!std::isfinite(e.upper)) return "not known";
   return figure(e, unit) + goal_text(metric);
 }
 
 // `of`: what the share is of, before any remark.
-std::string share_metric_text(const Metric& metric, const std::string& of) {
-  const Enclosure percent = in_percent(metric.value);
+std::string share_metric_text(const AnswerFigure& share, const std::string& of) {
+  const Enclosure percent = in_percent(share.value);
   const std::string likely = likely_text(percent, kShownPercent) + " %";
   if (percent.lower == percent.upper) return likely + of;
-  return likely + ", in " + share_text(metric.value) + of + goal_text(metric);
-}
-
-// Whether a figure is told: it is asked for, and it is one.
-template <class Named>
-bool is_shown(const Metrics& m, const Named& named) {
-  return m.asks_for(named.name) && (m.normals || !named.of_normals);
+  return likely + ", in " + share_text(share.value) + of + goal_text(share);
 }
 
 std::string angle_text(double degrees) { return " and " + shortest_decimal(degrees) + " degrees"; }
 
-std::string distance_text(const Answer& answer, const MetricsWithin& at) {
-  return in_unit(length_in_words({at.distance, at.distance}), answer.unit);
+std::string distance_text(const Answer& answer, double distance) {
+  return in_unit(length_in_words({distance, distance}), answer.unit);
+}
+
+/// The figures that the first line has where none is asked for by name.
+bool is_told_first(const AnswerFigure& figure) {
+  constexpr std::array<std::string_view, 4> kFirst{"hausdorff", "hd_p", "assd", "chamfer_l1"};
+  if (figure.kind == FigureKind::kMetricShare) return figure.name == "f1";
+  return std::find(kFirst.begin(), kFirst.end(), figure.column) != kFirst.end();
+}
+
+/// The name by which a figure is asked for.
+std::string_view asked_name(const AnswerFigure& figure) {
+  return figure.kind == FigureKind::kMetricShare ? figure.name : figure.column;
 }
 
 }  // namespace
@@ -276,22 +280,15 @@ std::string distance_text(const Answer& answer, const MetricsWithin& at) {
 std::string metrics_in_words(const Answer& answer) {
   const Metrics& m = *answer.metrics;
   std::string text;
-  for (const NamedMetric& metric : kNamedMetrics) {
-    const bool is_first = metric.figure == &Metrics::hausdorff || metric.figure == &Metrics::hd_p ||
-                          metric.figure == &Metrics::assd || metric.figure == &Metrics::chamfer_l1;
-    if (m.figures.empty() ? !is_first : !is_shown(m, metric)) continue;
-    const Enclosure& e = (m.*metric.figure).value;
-    text += (text.empty() ? "" : ", ") + name_of(metric, m.percentile) + " " +
-            in_unit(likely_text(e, 1e-3 * e.lower), metric_unit(answer, metric.dimension));
-  }
-  for (const MetricsWithin& at : m.within) {
-    for (const NamedShare& share : kNamedShares) {
-      const bool is_first = share.figure == &MetricsWithin::f1;
-      if (m.figures.empty() ? !is_first : !is_shown(m, share)) continue;
-      text += (text.empty() ? "" : ", ") + std::string(share.name) + " " +
-              likely_text(in_percent((at.*share.figure).value), kShownPercent) + " % within " +
-              distance_text(answer, at);
-    }
+  for (const AnswerFigure& figure : figures_of(answer)) {
+    if (figure.kind < FigureKind::kMetric) continue;
+    if (m.figures.empty() ? !is_told_first(figure) : !m.asks_for(asked_name(figure))) continue;
+    const Enclosure& e = figure.value;
+    text += (text.empty() ? "" : ", ") + figure.name + " ";
+    text += figure.kind == FigureKind::kMetric
+                ? in_unit(likely_text(e, 1e-3 * e.lower), unit_of(answer.unit, figure.power))
+                : likely_text(in_percent(e), kShownPercent) + " % within " +
+                      distance_text(answer, figure.at);
   }
   return text + (m.is_met() ? "" : "; not all are as narrow as asked");
 }
@@ -299,20 +296,14 @@ std::string metrics_in_words(const Answer& answer) {
 std::vector<TableRow> metrics_rows(const Answer& answer) {
   const Metrics& m = *answer.metrics;
   std::vector<TableRow> rows;
-  rows.reserve(kNamedMetrics.size() + kNamedShares.size() * m.within.size());
-  for (const NamedMetric& metric : kNamedMetrics) {
-    if (is_shown(m, metric))
-      rows.push_back({name_of(metric, m.percentile),
-                      metric_text(m.*metric.figure, metric_unit(answer, metric.dimension))});
-  }
-  for (const MetricsWithin& at : m.within) {
-    for (const NamedShare& share : kNamedShares) {
-      if (is_shown(m, share))
-        rows.push_back(
-            {share.name, share_metric_text(at.*share.figure,
-                                           " within " + distance_text(answer, at) +
-                                               (share.of_normals ? angle_text(*m.normals) : ""))});
-    }
+  for (const AnswerFigure& figure : figures_of(answer)) {
+    if (figure.kind < FigureKind::kMetric || !m.asks_for(asked_name(figure))) continue;
+    rows.push_back(
+        {figure.name,
+         figure.kind == FigureKind::kMetric
+             ? metric_text(figure, unit_of(answer.unit, figure.power))
+             : share_metric_text(figure, " within " + distance_text(answer, figure.at) +
+                                             (figure.of_normals ? angle_text(*m.normals) : ""))});
   }
   return rows;
 }

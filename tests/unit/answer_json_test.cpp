@@ -11,6 +11,7 @@
 
 #include "host/answer/json_object.h"
 #include "host/answer/merge_parts.h"
+#include "host/base/decimal.h"
 #include "vkhausdorff/error.h"
 
 namespace {
