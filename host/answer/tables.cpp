@@ -42,14 +42,6 @@ std::string joined(const std::vector<std::string>& lines) {
 
 std::string milliseconds(double ms) { return number_text(ms, std::chars_format::fixed, 3); }
 
-// The names of the columns of signed figures, but for the last: each has a lower and an upper end.
-std::vector<std::string> names_of_sides() {
-  std::vector<std::string> names{"over", "under", "signed_mean"};
-  for (const double share : kSignedShares)
-    names.push_back("signed_p" + shortest_decimal(100 * share));
-  return names;
-}
-
 // No more of A's area has no side.
 double unsigned_share(const SignedFigures::Areas& areas) {
   return std::max(add_up(add_up(1, -areas.over.lower), -areas.under.lower), 0.0);
@@ -61,7 +53,7 @@ using Cells = std::vector<std::string>;
 std::map<std::string, AnswerFigure> columns_of(const Answer& answer) {
   std::map<std::string, AnswerFigure> columns;
   for (AnswerFigure& figure : figures_of(answer)) {
-    if (!figure.column.empty() && !figure.of_b) columns.emplace(figure.column, std::move(figure));
+    if (figure.in_batch && !figure.of_b) columns.emplace(figure.key, std::move(figure));
   }
   return columns;
 }
@@ -73,7 +65,7 @@ void add_ends(const Enclosure& e, Cells& cells) {
 
 void add_sides(const Answer& answer, Cells& cells) {
   const auto figures = columns_of(answer);
-  for (const std::string& name : names_of_sides()) {
+  for (const std::string& name : survey_columns()) {
     const auto found = figures.find(name);
     if (found == figures.end())
       cells.resize(cells.size() + 2);
@@ -141,9 +133,11 @@ std::string csv_heading(const CsvColumns& with) {
   std::vector<std::string> cells{"id",   "code", "status", "verdict", "lower",   "upper", "gap",
                                  "unit", "a",    "b",      "faces_a", "faces_b", "words", "notes"};
   if (with.run) cells.insert(cells.end(), {"gpu_ms", "total_ms", "host", "started"});
-  for (const std::string& name : with.sides ? names_of_sides() : std::vector<std::string>())
-    cells.insert(cells.end(), {name + "_lower", name + "_upper"});
-  if (with.sides) cells.emplace_back("unsigned_share");
+  if (with.sides) {
+    for (const std::string& name : survey_columns())
+      cells.insert(cells.end(), {name + "_lower", name + "_upper"});
+    cells.emplace_back("unsigned_share");
+  }
   if (with.metrics) add_names_of_metrics(with, cells);
   return row_of(cells);
 }

@@ -50,14 +50,19 @@ std::string estimated_percent(const Enclosure& share) {
          " %";
 }
 
-Json band_row(const Answer& answer, const AnswerFigure& figure, const char* of) {
-  const bool is_of_limit = is_limit(answer, figure.at);
-  const double asked = is_of_limit && answer.max->area ? *answer.max->area : -1;
-  const Enclosure& share = figure.value;
-  Json row = named(of + (" within " + band_text(answer, figure.at)), share_text(share, asked));
-  row["is_limit"] = is_of_limit;
+// A share is told of all `asked`, where a limit is of a share.
+Json share_row(const std::string& name, const Enclosure& share, double asked) {
+  Json row = named(name, share_text(share, asked));
   const bool is_range = share.upper - share.lower >= 2e-4;
   row["estimate"] = is_range && share.estimate ? estimated_percent(share) : "";
+  return row;
+}
+
+Json band_row(const Answer& answer, const AnswerFigure& figure) {
+  const bool is_of_limit = is_limit(answer, figure.at);
+  Json row = share_row(figure.title + " " + band_text(answer, figure.at), figure.value,
+                       is_of_limit && answer.max->area ? *answer.max->area : -1);
+  row["is_limit"] = is_of_limit;
   return row;
 }
 
@@ -77,30 +82,17 @@ void add_signed_mean(const Answer& answer, const Enclosure& mean, Json& rows) {
 }
 
 void add_row(const Answer& answer, const AnswerFigure& figure, bool are_points, Json& rows) {
-  const char* of = are_points ? "points" : "area";
   switch (figure.kind) {
-    case FigureKind::kLargest:
-      return rows.push_back(named("largest deviation", length_text(answer, figure.value)));
-    case FigureKind::kOver:
-    case FigureKind::kUnder:
-      return rows.push_back(named("farthest " + figure.name, length_text(answer, figure.value)));
     case FigureKind::kSignedMean:
       return add_signed_mean(answer, figure.value, rows);
     case FigureKind::kKept:
-      return rows.push_back(left_out_row(answer, figure, of));
-    case FigureKind::kMean:
-      return rows.push_back(length_row(answer, "mean deviation", figure.value));
-    case FigureKind::kRms:
-      return rows.push_back(length_row(answer, "root mean square", figure.value));
-    case FigureKind::kPercentile:
-      return rows.push_back(length_row(answer,
-                                       shortest_decimal(100 * figure.at) + " % of the " + of +
-                                           (are_points ? " are" : " is") + " within",
-                                       figure.value));
+      return rows.push_back(left_out_row(answer, figure, are_points ? "points" : "area"));
     case FigureKind::kBand:
-      return rows.push_back(band_row(answer, figure, of));
+      return rows.push_back(band_row(answer, figure));
     default:
-      return;
+      if (figure.title.empty()) return;
+      rows.push_back(figure.power == 0 ? share_row(figure.title, figure.value, -1)
+                                       : length_row(answer, figure.title, figure.value));
   }
 }
 

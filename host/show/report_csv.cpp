@@ -23,12 +23,6 @@ std::string csv_end(double value, Rounding rounding) {
   return std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : "";
 }
 
-/// The kinds of figures.csv: what is of one direction, but for signed percentiles.
-bool is_in_csv(FigureKind kind) {
-  return kind != FigureKind::kSignedPercentile && kind != FigureKind::kKept &&
-         kind < FigureKind::kMetric;
-}
-
 std::string figure_row(const Answer& answer, const AnswerFigure& figure) {
   const bool is_band = figure.kind == FigureKind::kBand;
   const Enclosure& e = figure.value;
@@ -45,7 +39,7 @@ std::string figures_csv(const Measured& measured) {
   (void)sides_of(measured);  // throws if nothing was surveyed
   std::string out = row_text({"from", "figure", "estimate", "lower", "upper", "unit"});
   for (const AnswerFigure& figure : figures_of(measured.answer)) {
-    if (is_in_csv(figure.kind)) out += figure_row(measured.answer, figure);
+    if (figure.in_report) out += figure_row(measured.answer, figure);
   }
   return out;
 }
