@@ -1,6 +1,7 @@
 #include "host/answer/json_reader.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -52,6 +53,27 @@ double double_of_hex(const std::string& key, std::string_view text, bool is_sign
 bool is_double(const Json& decimal, double bound) {
   if (decimal.is_null()) return std::isinf(bound);
   return decimal.is_number() && decimal.get<double>() == bound;
+}
+
+/// Versions are numbers between points; what is none of that is later than any.
+bool is_before(const std::string& version, const char* other) {
+  const auto numbers = [](std::string_view text) {
+    std::array<int, 3> all{std::numeric_limits<int>::max(), 0, 0};
+    const char *at = text.data(), *end = at + text.size();
+    for (int& number : all) {
+      const auto [next, error] = std::from_chars(at, end, number);
+      if (error != std::errc()) break;
+      at = next == end ? end : next + 1;
+    }
+    return all;
+  };
+  return numbers(version) < numbers(other);
+}
+
+/// Bytes that are no UTF-8 are replaced where a text is written.
+std::string as_in_json(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
 }
 
 std::array<double, 4> row_in(const Json& json, const char* key) {
@@ -147,6 +169,19 @@ void JsonReader::number_or_none(const char* key, std::optional<double>& number) 
 void JsonReader::number_if_known(const char* key, double& number, bool) {
   const Json* json = unread(key);
   if (json != nullptr) number = json->is_null() ? 0 : number_in(*json, key);
+}
+
+void JsonReader::number_since(const char* version, const char* key, double& number, bool is_known) {
+  const bool may_lack_it = missing_ == Missing::kRefused && is_before(*version_, version);
+  if (!may_lack_it || find(key) != nullptr) number_if_known(key, number, is_known);
+}
+
+void JsonReader::said(const char* key, std::string& kept, const Answer& answer) {
+  text(key, kept);
+  const bool is_compared = compares_ && is_of_this_version();
+  const std::optional<std::string> implied = is_compared ? implied_words(answer) : std::nullopt;
+  if (implied && kept != *implied && kept != as_in_json(*implied))
+    throw InputError(std::string(key) + " are not those of the answer");
 }
 
 void JsonReader::count_or_none(const char* key, std::optional<uint64_t>& count) {
@@ -271,6 +306,7 @@ void take_from_forward(const Json& json, Answer& answer) {
   if (!answer.b_to_a) return;
   Report& back = *answer.b_to_a;
   back.tolerance = answer.a_to_b.tolerance;
+  if (json.contains("tolerance") && json["tolerance"].contains("diagonal_b")) return;
   const std::optional<Box>& box = answer.inputs[1].box;
   back.diagonal_a = box ? diagonal(*box) : answer.a_to_b.diagonal_a;
   const Json& interval = json["directions"][1]["interval"];

@@ -36,6 +36,7 @@ class JsonReader {
 
   bool is_full() const { return detail_ == Detail::kFull; }
   void in_unit(const std::string& unit) { unit_ = &unit; }
+  void in_version(const std::string& version) { version_ = &version; }
 
   // Values.
   void text(const char* key, std::string& text);
@@ -44,6 +45,7 @@ class JsonReader {
   void number_or_null(const char* key, double& number);
   void number_or_none(const char* key, std::optional<double>& number);
   void number_if_known(const char* key, double& number, bool);
+  void number_since(const char* version, const char* key, double& number, bool is_known);
   template <std::integral T>
   void count(const char* key, T& count) {
     const Json* json = unread(key);
@@ -106,11 +108,12 @@ class JsonReader {
   }
   void beside(const char* key, const std::string& text);
   template <class Make>
-  void told(const char*, const Make&) {}
-  template <class Make>
-  void said(const char* key, std::string& kept, const Make&) {
-    text(key, kept);
+  void told(const char* key, const Make& make) {
+    const Json* json = compares_ ? member(key) : nullptr;
+    if (json != nullptr && is_of_this_version() && !is_same(*json, make()))
+      throw InputError(std::string(key) + " is not what this version says of the rest");
   }
+  void said(const char* key, std::string& kept, const Answer& answer);
 
   // Presence.
   template <class... T>
@@ -218,6 +221,7 @@ class JsonReader {
   static const Json& array_in(const Json& json, const char* key);
   static std::optional<Note> note_in(const Json& json);
   bool has_files(const char* key);
+  bool is_of_this_version() const { return *version_ == program_version(); }
   static uint64_t count_in(const Json& json, const char* key);
   double bound_at(const char* key, bool is_signed);
   Enclosure ends_at(bool is_signed);
@@ -251,12 +255,12 @@ class JsonReader {
   bool compares_ = false;
   const Json* at_ = nullptr;
   size_t next_ = 0;
-  const std::string* unit_ = nullptr;
+  const std::string *unit_ = nullptr, *version_ = nullptr;
   std::vector<std::string> lacking_;
 };
 
-/// Gives B's direction what an answer has once for both. Its diagonal is not written: it is B's, or
-/// A's if that direction was not run, as its gap tells.
+/// Gives B's direction what an answer has once for both; and its diagonal where a program before
+/// 0.3.0 has not written it: it is B's, or A's if that direction was not run, as its gap tells.
 void take_from_forward(const Json& json, Answer& answer);
 
 }  // namespace vkh

@@ -1,6 +1,7 @@
 #include "host/answer/json_text.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/answer/json_object.h"
 
@@ -20,7 +21,16 @@ void JsonText::key(const char* name) {
 
 void JsonText::count(uint64_t count) { value() += std::to_string(count); }
 
-void JsonText::number(double number) { value() += Json(number).dump(); }
+void JsonText::number(double number) {
+  value() += std::isfinite(number) ? Json(number).dump() : "null";
+}
+
+void JsonText::bound(const char* name, double bound, Rounding rounding) {
+  key(name);
+  value() += std::isfinite(bound) ? decimal(bound, kJsonDigits, rounding) : "null";
+  key((std::string(name) + "_hex").c_str());
+  text(hex_float(bound));
+}
 
 void JsonText::text(std::string_view text) {
   const bool is_plain = std::all_of(text.begin(), text.end(), [](char c) {

@@ -18,10 +18,12 @@ class JsonText {
   void null() { value() += "null"; }
   void truth(bool truth) { value() += truth ? "true" : "false"; }
   void count(uint64_t count);
-  void number(double number);
-  void bound(double bound, Rounding rounding) { value() += decimal(bound, kJsonDigits, rounding); }
+  void number(double number);  ///< null where it is infinite
+  /// Rounded outward, and all of it in hexadecimal.
+  void bound(const char* name, double bound, Rounding rounding);
   /// Between both ends, and read back as the same double.
   void estimate(const Enclosure& e) { value() += decimal_between(*e.estimate, e.lower, e.upper); }
+  void face(const SurfacePoint& point) { count(point.file_face); }
   /// Replaces bytes of a file name that are no UTF-8: they must not cost the answer.
   void text(std::string_view text);
   void open_object() { open('{', '}'); }

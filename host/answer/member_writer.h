@@ -1,7 +1,6 @@
 // The visitor of members.h that writes them: the kinds, in terms of a tree that is built in order.
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <initializer_list>
@@ -15,9 +14,9 @@
 
 namespace vkh {
 
-/// `Tree`: key(name) before each member; null(), truth(), count(), number(), text() and
-/// bound(value, rounding) and
-/// estimate(enclosure) are values; open_object(), open_array() and close() enclose them.
+/// `Tree`: key(name) before each member; null(), truth(), count(), number(), text(), face(point)
+/// and estimate(enclosure) are values; bound(name, value, rounding) is a member; open_object(),
+/// open_array() and close() enclose them.
 template <class Tree>
 class MemberWriter {
  public:
@@ -27,6 +26,7 @@ class MemberWriter {
 
   bool is_full() const { return detail_ == Detail::kFull; }
   void in_unit(const std::string& unit) { unit_ = &unit; }
+  void in_version(const std::string&) {}
 
   // Values.
   void text(const char* key, const std::string& text) { put(key, text); }
@@ -36,6 +36,9 @@ class MemberWriter {
   void number_or_none(const char* key, const std::optional<double>& number) { put(key, number); }
   void number_if_known(const char* key, double number, bool is_known) {
     put(key, is_known ? std::optional(number) : std::nullopt);
+  }
+  void number_since(const char*, const char* key, double number, bool is_known) {
+    number_if_known(key, number, is_known);
   }
   void count(const char* key, std::integral auto count) { put(key, static_cast<uint64_t>(count)); }
   void count_or_none(const char* key, const std::optional<uint64_t>& count) { put(key, count); }
@@ -57,12 +60,15 @@ class MemberWriter {
   void exit_code(const char* key, ExitCode code) { count(key, static_cast<int>(code)); }
   void note_code(const char* key, NoteCode code) { put(key, code_name(code)); }
   void length(const char* key, const Length& length) { put(key, length.requested); }
-  void face(const char* key, const SurfacePoint& point) { put(key, point.file_face); }
+  void face(const char* key, const SurfacePoint& point) {
+    tree_.key(key);
+    tree_.face(point);
+  }
   void unit(int power) { beside("unit", unit_of(*unit_, power)); }
 
   // Bounds.
-  void down(const char* key, double bound) { put_bound(key, bound, Rounding::kDown); }
-  void up(const char* key, double bound) { put_bound(key, bound, Rounding::kUp); }
+  void down(const char* key, double bound) { tree_.bound(key, bound, Rounding::kDown); }
+  void up(const char* key, double bound) { tree_.bound(key, bound, Rounding::kUp); }
   void ends(double lower, double upper) {
     down("lower", lower);
     up("upper", upper);
@@ -94,9 +100,8 @@ class MemberWriter {
   void told(const char* key, const Make& make) {
     put(key, make());
   }
-  template <class Make>
-  void said(const char* key, const std::string&, const Make& make) {
-    put(key, make());
+  void said(const char* key, const std::string&, const Answer& answer) {
+    put(key, in_words(answer));
   }
 
   // Presence.
@@ -209,7 +214,7 @@ class MemberWriter {
 
  private:
   void put(bool truth) { tree_.truth(truth); }
-  void put(double number) { std::isfinite(number) ? tree_.number(number) : tree_.null(); }
+  void put(double number) { tree_.number(number); }
   void put(uint64_t count) { tree_.count(count); }
   void put(std::string_view text) { tree_.text(text); }
   void put(const char* text) { tree_.text(text); }
@@ -223,12 +228,6 @@ class MemberWriter {
   void put(const char* key, const T& value) {
     tree_.key(key);
     put(value);
-  }
-  void put_bound(const char* key, double bound, Rounding rounding) {
-    tree_.key(key);
-    std::isfinite(bound) ? tree_.bound(bound, rounding) : tree_.null();
-    tree_.key((std::string(key) + "_hex").c_str());
-    tree_.text(hex_float(bound));
   }
   void put_row(std::initializer_list<double> numbers) {
     tree_.open_array();

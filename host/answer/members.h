@@ -6,7 +6,9 @@
 //   optional, nullable, mark, ..._if_any    it is missing, or null, where there is nothing to tell
 //   bounds, enclosure, ends, down, up       rounded outward, with the doubles in hexadecimal
 //   implied, beside                         the others imply it: written, and compared when read
-//   told                                    for people: written, and not read
+//   told, said                              for people: compared where this version has written it
+// A member that is missing is refused, unless its kind allows it, or a program before the version
+// in its `..._since` has written the rest.
 // is_full() is false for a result line, which leaves out what only one run or machine has.
 #pragma once
 
@@ -43,6 +45,10 @@ inline constexpr Words<InsideOut> kInsideOutWords{inside_out_name, InsideOut::kA
 
 /// kBrief leaves out times, stages, waves and workspace, which only one run or machine has.
 enum class Detail { kFull, kBrief };
+
+/// The first line, as the other members imply it; none where it has more than they have: the limits
+/// of single faces, or a share as it was typed.
+std::optional<std::string> implied_words(const Answer& answer);
 
 /// The input's notes, those that name no file with its own.
 std::vector<Note> notes_with_file(const Input& input);
@@ -101,17 +107,22 @@ void visit_source(V& v, Of<V, Input>& input, const char* name) {
   visit_hashes(v, input);
 }
 
+/// `are_known`: the mesh was read. Otherwise all are null.
 template <class V>
-void visit(V& v, Of<V, Input>& input, const char* name) {
-  visit_source(v, input, name);
-  auto& counts = input.counts;
-  v.counts("of a mesh that was not read", input.is_read,
+void visit(V& v, Of<V, MeshCounts>& counts, Of<V, bool>& are_known) {
+  v.counts("of a mesh that was not read", are_known,
            {{"vertices", counts.vertices},
             {"faces", counts.faces},
             {"unreferenced", counts.unreferenced},
             {"degenerate", counts.degenerate},
             {"duplicate", counts.duplicate},
             {"polygons", counts.polygons}});
+}
+
+template <class V>
+void visit(V& v, Of<V, Input>& input, const char* name) {
+  visit_source(v, input, name);
+  visit(v, input.counts, input.is_read);
   v.mark("points", input.are_points);
   v.number("delta", input.place.delta);
   v.text_or_null("unit", input.place.unit);
@@ -188,8 +199,7 @@ void visit(V& v, Of<V, WaveStats>& wave) {
 
 /// The workspace depends on earlier runs of the device.
 template <class V>
-void visit_work(V& v, Of<V, Report>& r) {
-  if (v.is_full()) v.object("times", [&] { visit(v, r.times); });
+void visit_counts(V& v, Of<V, Report>& r) {
   v.object("counts", [&] {
     v.count("waves", r.waves);
     v.count("candidates", r.candidates);
@@ -197,6 +207,12 @@ void visit_work(V& v, Of<V, Report>& r) {
     v.count("peak_frontier", r.peak_frontier);
     if (v.is_full()) v.count("workspace_bytes", r.workspace_bytes);
   });
+}
+
+template <class V>
+void visit_work(V& v, Of<V, Report>& r) {
+  if (v.is_full()) v.object("times", [&] { visit(v, r.times); });
+  visit_counts(v, r);
   if (!v.is_full()) return;
   v.list("stages", r.stages, [&](auto& stage) { visit(v, stage); });
   v.named_counts("culled", r.culled);
@@ -434,11 +450,9 @@ void visit_verified(V& v, Of<V, Report>& r, Of<V, WitnessCheck>& check) {
 
 inline constexpr const char* kWrongGap = "a gap that is not that of its interval";
 
+/// What a direction's search found.
 template <class V>
-void visit_direction(V& v, Of<V, Answer>& answer, Of<V, Report>& r, bool back) {
-  v.implied(
-      "from", [&] { return back ? "b" : "a"; }, "directions are not A's and B's");
-  v.beside("to", back ? "a" : "b");
+void visit_search(V& v, const Answer& answer, Of<V, Report>& r) {
   v.named("status", r.status, kStatusWords);
   v.told("stop_reason", [&] { return stop_reason(answer, r.status); });
   v.bounds("interval", [&] {
@@ -450,6 +464,14 @@ void visit_direction(V& v, Of<V, Answer>& answer, Of<V, Report>& r, bool back) {
   v.number("known_lower", r.known_lower);
   visit_witness(v, r);
   v.optional("verified", r.witness_check, [&](auto& check) { visit_verified(v, r, check); });
+}
+
+template <class V>
+void visit_direction(V& v, Of<V, Answer>& answer, Of<V, Report>& r, bool back) {
+  v.implied(
+      "from", [&] { return back ? "b" : "a"; }, "directions are not A's and B's");
+  v.beside("to", back ? "a" : "b");
+  visit_search(v, answer, r);
   visit_survey(v, answer, back);
   v.optional("certificate", back ? answer.proof_b : answer.proof_a,
              [&](auto& proof) { visit(v, proof); });
@@ -510,6 +532,14 @@ void visit_tolerance(V& v, Of<V, Answer>& answer) {
   v.text_or_null("unit", answer.unit);
   visit_diagonal_of(v, answer.tolerance);
   v.number_if_known("diagonal", answer.a_to_b.diagonal_a, is_known);
+  if (answer.b_to_a) v.number_since("0.3.0", "diagonal_b", answer.b_to_a->diagonal_a, is_known);
+}
+
+template <class V>
+void visit_switches(V& v, Of<V, Report>& r) {
+  v.text("preset", r.preset);
+  v.texts("switched_on", r.switched_on);
+  v.texts("switched_off", r.switched_off);
 }
 
 template <class V>
@@ -517,9 +547,7 @@ void visit_options(V& v, Of<V, Answer>& answer) {
   v.implied(
       "symmetric", [&] { return answer.b_to_a.has_value(); },
       "symmetric contradicts the directions");
-  v.text("preset", answer.a_to_b.preset);
-  v.texts("switched_on", answer.a_to_b.switched_on);
-  v.texts("switched_off", answer.a_to_b.switched_off);
+  visit_switches(v, answer.a_to_b);
 }
 
 // The answer.
@@ -562,7 +590,7 @@ void visit_meshes(V& v, Of<V, Answer>& answer) {
 template <class V>
 void visit_common(V& v, Of<V, Answer>& answer) {
   v.in_unit(answer.unit);
-  v.said("words", answer.first_line, [&] { return in_words(answer); });
+  v.said("words", answer.first_line, answer);
   v.implied(
       "status", [&] { return status_name(interval_of(answer).status); },
       "a status that is not that of its directions");
@@ -594,6 +622,7 @@ void visit_waits(V& v, Of<V, Waits>& waits) {
 template <class V>
 void visit(V& v, Of<V, Answer>& answer) {
   v.text("version", answer.version);
+  v.in_version(answer.version);
   visit_common(v, answer);
   visit_devices(v, answer.a_to_b);
   visit_waits(v, answer.waits);
@@ -616,6 +645,7 @@ template <class V>
 void visit(V& v, Of<V, Result>& result) {
   auto& answer = result.answer;
   v.text("version", answer.version);
+  v.in_version(answer.version);
   v.text("id", result.name.id);
   v.text("key", result.name.key);
   v.exit_code("code", result.code);

@@ -25,6 +25,7 @@ class PathVisitor {
 
   bool is_full() const { return detail_ == Detail::kFull; }
   void in_unit(const std::string&) {}
+  void in_version(const std::string&) {}
 
   void text(const char* key, auto&) { add(key); }
   void text_or_null(const char* key, auto&) { add(key); }
@@ -32,6 +33,7 @@ class PathVisitor {
   void number_or_null(const char* key, auto&) { add(key); }
   void number_or_none(const char* key, auto&) { add(key); }
   void number_if_known(const char* key, auto&, bool) { add(key); }
+  void number_since(const char*, const char* key, auto&, bool) { add(key); }
   void count(const char* key, auto&) { add(key); }
   void count_or_none(const char* key, auto&) { add(key); }
   void count_if_any(const char* key, auto&) { add(key); }
@@ -74,7 +76,7 @@ class PathVisitor {
   }
   void beside(const char* key, const std::string&) { add(key); }
   void told(const char* key, const auto&) { add(key); }
-  void said(const char* key, auto&, const auto&) { add(key); }
+  void said(const char* key, auto&, const Answer&) { add(key); }
 
   template <class... T>
   bool has(const char* key, std::optional<T>&... members) {
@@ -122,7 +124,8 @@ class PathVisitor {
   void array_of_two(const char* key, const auto& members) {
     object(key, [&] { members(false); });
   }
-  void one_or_two(const char* key, auto& first, auto&, const auto& members) {
+  void one_or_two(const char* key, auto& first, auto& second, const auto& members) {
+    second.emplace();
     object(key, [&] { members(first, false); });
   }
   struct NamedCount {
