@@ -21,7 +21,7 @@ if(NOT VKH_SANITIZE)
                  long_walk_test face_limits_test see effort schema embed_shaders two_drivers driver_lavapipe128
                  kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address doctor
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
-                 proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
+                 golden proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
                  python_life python_fork python_lost python_distances python_distances_life)
   # A minute and more each: the same kernels with more cases, compiled for another card or system, and
   # the examples of clusters.

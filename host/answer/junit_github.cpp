@@ -97,10 +97,6 @@ bool is_failed(const Answer& answer) {
   return answer.max && verdict_of(answer) == Verdict::kBeyond;
 }
 
-std::vector<std::string> server_notes_of(const Answer& answer) {
-  return server_notes(notes_of(answer), answer.inputs[0].notes, answer.inputs[1].notes);
-}
-
 std::string max_text(const Asked& max) {
   return max.sides ? sided_text(max.sides->over, max.sides->under) : max.length.requested;
 }
@@ -132,7 +128,7 @@ JunitCase case_of(const Answer& answer) {
                 .name = case_name(answer),
                 .words = in_words(answer),
                 .seconds = answer.waits.total / 1000};
-  one.notes = server_notes_of(answer);
+  one.notes = server_notes(answer);
   if (is_failed(answer)) {
     one.element = "failure";
     one.type = "beyond the limit";
@@ -145,17 +141,16 @@ JunitCase case_of(const Answer& answer) {
 
 }  // namespace
 
-std::vector<std::string> server_notes(std::span<const Note> pair, std::span<const Note> a,
-                                      std::span<const Note> b) {
+std::vector<std::string> server_notes(const Answer& answer) {
   std::vector<std::string> lines;
   const auto add = [&](std::span<const Note> notes, const char* of) {
     for (const Note& note : notes) {
       if (is_for_servers(note.code)) lines.push_back(of + line_of(note));
     }
   };
-  add(pair, "");
-  add(a, "A: ");
-  add(b, "B: ");
+  add(notes_of(answer), "");
+  add(answer.inputs[0].notes, "A: ");
+  add(answer.inputs[1].notes, "B: ");
   return lines;
 }
 
@@ -224,7 +219,7 @@ std::string github_annotation(const Answer& answer) {
                       .file = answer.inputs[0].path,
                       .title = "vkhausdorff " + answer.command,
                       .words = in_words(answer),
-                      .notes = server_notes_of(answer)});
+                      .notes = server_notes(answer)});
 }
 
 std::string github_annotation(const Failure& failure) {
@@ -253,7 +248,7 @@ std::string github_summary(const Answer& answer) {
   text += " |\n";
   if (!answer.a_to_b.device.name.empty())
     text += "| device | " + github_code(answer.a_to_b.device.name) + " |\n";
-  for (const std::string& note : server_notes_of(answer))
+  for (const std::string& note : server_notes(answer))
     text += "| note | " + github_code(note) + " |\n";
   return text + "\n";
 }

@@ -12,7 +12,7 @@ namespace {
 
 bool is_failure(ExitCode code) { return code == kExitUsage || code > kExitNotClosed; }
 
-std::string in_brackets(const Bounds& bounds) {
+std::string in_brackets(const auto& bounds) {
   return "[" + decimal(bounds.lower, 7, Rounding::kDown) + ", " +
          decimal(bounds.upper, 7, Rounding::kUp) + "]";
 }
@@ -27,11 +27,11 @@ void Results::add(const std::string& path) {
   for (std::string line; std::getline(file, line) && !file.eof(); at += line.size() + 1) {
     ++number;
     try {
-      const Record record = read_record(line);
-      const Place place = place_of(record, files_.size(), at, line.size());
-      const auto [known, is_new] = of_file.try_emplace(record.name.id, place);
+      const Result result = read_result(line);
+      const Place place = place_of(result, files_.size(), at, line.size());
+      const auto [known, is_new] = of_file.try_emplace(result.name.id, place);
       const std::string wrong = is_new ? "" : contradiction(place, known->second, path);
-      if (!wrong.empty()) throw InputError("'" + record.name.id + "': " + wrong);
+      if (!wrong.empty()) throw InputError("'" + result.name.id + "': " + wrong);
       known->second = place;
     } catch (const InputError& error) {
       throw InputError(
@@ -43,16 +43,20 @@ void Results::add(const std::string& path) {
   put(of_file);
 }
 
-Results::Place Results::place_of(const Record& record, size_t file, uint64_t begin, uint64_t size) {
+Results::Place Results::place_of(const Result& result, size_t file, uint64_t begin, uint64_t size) {
+  const Answer& answer = result.answer;
+  const CertifiedInterval whole = interval_of(answer);
   return {
       .file = file,
       .begin = begin,
       .size = size,
-      .key = record.name.key,
-      .code = record.code,
-      .is_answer = !record.status.empty(),
-      .names_files = record.names_files(),
-      .bounds = {Bounds{record.lower, record.upper}, record.directions[0], record.directions[1]}};
+      .key = result.name.key,
+      .code = result.code,
+      .is_answer = result.has_answer(),
+      .names_files = result.names_files(),
+      .bounds = {Bounds{whole.lower, whole.upper},
+                 {answer.a_to_b.lower, answer.a_to_b.upper},
+                 answer.b_to_a ? Bounds{answer.b_to_a->lower, answer.b_to_a->upper} : Bounds{}}};
 }
 
 std::string Results::contradiction(const Place& place, const Place& older,
@@ -113,10 +117,10 @@ std::string Results::text_of(const Place& place) const {
 }
 
 void Results::for_each(
-    const std::function<void(const Record&, const std::string& line)>& take) const {
+    const std::function<void(const Result&, const std::string& line)>& take) const {
   for (const auto& [id, place] : places_) {
     const std::string line = text_of(place);
-    take(read_record(line), line);
+    take(read_result(line), line);
   }
 }
 

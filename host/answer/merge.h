@@ -3,11 +3,12 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "host/answer/record.h"
+#include "host/answer/result.h"
 
 namespace vkh {
 
@@ -26,9 +27,15 @@ class Results {
   size_t size() const { return places_.size(); }
   bool has(const std::string& id) const { return places_.count(id) > 0; }
   /// Calls `take` with each line, by id.
-  void for_each(const std::function<void(const Record&, const std::string& line)>& take) const;
+  void for_each(const std::function<void(const Result&, const std::string& line)>& take) const;
 
  private:
+  /// An enclosure of a distance.
+  struct Bounds {
+    double lower = 0, upper = std::numeric_limits<double>::infinity();
+    /// Whether both may be true of one distance.
+    bool meets(const Bounds& other) const { return lower <= other.upper && other.lower <= upper; }
+  };
   struct Place {
     size_t file = 0;
     uint64_t begin = 0, size = 0;
@@ -38,7 +45,7 @@ class Results {
     std::array<Bounds, 3> bounds;  ///< the whole's, and both directions'
     double width() const { return bounds[0].upper - bounds[0].lower; }
   };
-  static Place place_of(const Record& record, size_t file, uint64_t begin, uint64_t size);
+  static Place place_of(const Result& result, size_t file, uint64_t begin, uint64_t size);
   /// Says how a line contradicts an older one of `file`; empty: it does not.
   static std::string contradiction(const Place& place, const Place& older, const std::string& file);
   void check_same(const std::string& id, const Place& older, const Place& place) const;

@@ -7,22 +7,26 @@
 
 namespace vkh {
 
-Outcome outcome_of(const Record& record) {
-  if (record.status.empty()) return Outcome::kNoAnswer;
-  if (record.code == kExitBeyond) return Outcome::kBeyond;
-  if (record.code == kExitNotClosed) return Outcome::kOpen;
-  return record.verdict.empty() ? Outcome::kClosed : Outcome::kWithin;
+bool has_limit(const Result& result) {
+  return result.has_answer() && result.answer.max && result.answer.max->limit.beyond > 0;
 }
 
-const char* outcome_word(const Record& record) {
-  switch (outcome_of(record)) {
+Outcome outcome_of(const Result& result) {
+  if (!result.has_answer()) return Outcome::kNoAnswer;
+  if (result.code == kExitBeyond) return Outcome::kBeyond;
+  if (result.code == kExitNotClosed) return Outcome::kOpen;
+  return !result.answer.max ? Outcome::kClosed : Outcome::kWithin;
+}
+
+const char* outcome_word(const Result& result) {
+  switch (outcome_of(result)) {
     case Outcome::kBeyond:
       return "FAIL";
     case Outcome::kNoAnswer:
       return "NO ANSWER";
     case Outcome::kOpen:
-      if (record.metrics) return "WIDER THAN ASKED";
-      return record.verdict.empty() ? "NOT CLOSED" : "UNDECIDED";
+      if (result.answer.metrics) return "WIDER THAN ASKED";
+      return !result.answer.max ? "NOT CLOSED" : "UNDECIDED";
     case Outcome::kClosed:
       return "CLOSED";
     case Outcome::kWithin:
@@ -33,22 +37,24 @@ const char* outcome_word(const Record& record) {
 
 // The quotient is off by half an ulp at most, unless it is subnormal: then by half of the least
 // double. The double below it is under the exact one in either case.
-double share_of_limit(const Record& record) {
-  if (record.status.empty() || !(record.limit.beyond > 0) || !(record.lower > 0)) return 0;
-  return std::nextafter(record.lower / record.limit.beyond, 0.0);
+double share_of_limit(const Result& result) {
+  const double lower = interval_of(result.answer).lower;
+  if (!has_limit(result) || !(lower > 0)) return 0;
+  return std::nextafter(lower / result.answer.max->limit.beyond, 0.0);
 }
 
-std::string share_of_limit_text(const Record& record) {
-  if (record.status.empty() || !(record.limit.beyond > 0)) return "";
-  return decimal(share_of_limit(record), 3, Rounding::kDown);
+std::string share_of_limit_text(const Result& result) {
+  if (!has_limit(result)) return "";
+  return decimal(share_of_limit(result), 3, Rounding::kDown);
 }
 
-Rank rank_of(const Record& record) {
-  Rank rank{.outcome = outcome_of(record),
-            .has_limit = record.limit.beyond > 0,
-            .size = share_of_limit(record),
-            .id = record.name.id};
-  if (!rank.has_limit) rank.size = in_millimetres(record.lower, record.unit);
+Rank rank_of(const Result& result) {
+  Rank rank{.outcome = outcome_of(result),
+            .has_limit = has_limit(result),
+            .size = share_of_limit(result),
+            .id = result.name.id};
+  if (!rank.has_limit)
+    rank.size = in_millimetres(interval_of(result.answer).lower, result.answer.unit);
   return rank;
 }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/answer/record.h"
+#include "host/answer/result.h"
 
 namespace vkh {
 
@@ -15,14 +15,17 @@ enum class Outcome {
   kClosed,    ///< an interval, since there was no limit
   kWithin,    ///< within its limit
 };
-Outcome outcome_of(const Record& record);
+/// Whether there is an answer, with a limit that is above 0.
+bool has_limit(const Result& result);
+
+Outcome outcome_of(const Result& result);
 /// "FAIL", "NO ANSWER", "UNDECIDED" or "NOT CLOSED", "CLOSED", "PASS".
-const char* outcome_word(const Record& record);
+const char* outcome_word(const Result& result);
 
 /// The lower end as a multiple of the limit, rounded down; 0: no limit, or no answer.
-double share_of_limit(const Record& record);
+double share_of_limit(const Result& result);
 /// "3.48": that in three digits, rounded down; empty: no limit, or no answer.
-std::string share_of_limit_text(const Record& record);
+std::string share_of_limit_text(const Result& result);
 
 /// A place in the order. Of one outcome, pairs without a limit come first, by their lower ends;
 /// then the others by the share of their limits. No upper end counts: a run with a limit stops
@@ -34,7 +37,7 @@ struct Rank {
       0;  ///< share_of_limit(); without a limit the lower end, in mm where a unit is known
   std::string id;
 };
-Rank rank_of(const Record& record);
+Rank rank_of(const Result& result);
 bool is_worse(const Rank& x, const Rank& y);
 
 }  // namespace vkh

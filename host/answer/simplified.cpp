@@ -4,6 +4,8 @@
 #include <ostream>
 
 #include "host/answer/json_object.h"
+#include "host/answer/json_text.h"
+#include "host/answer/member_writer.h"
 #include "host/base/decimal.h"
 
 namespace vkh {
@@ -77,58 +79,6 @@ void print_file(std::ostream& out, const SimplifyAnswer& answer, const Simplifie
                 largest_words(file.deviation, answer.unit) + "; read back and measured");
 }
 
-void add_ends(JsonObject& json, double lower, double upper) {
-  json.add_bound("lower", lower, Rounding::kDown);
-  json.add_bound("upper", upper, Rounding::kUp);
-}
-
-std::string side_json(const Report& report) {
-  JsonObject json;
-  add_ends(json, report.lower, report.upper);
-  json.add("status", status_name(report.status));
-  return json.text();
-}
-
-std::string file_json(const SimplifiedFile& file) {
-  const Deviation& deviation = file.deviation;
-  JsonObject json;
-  json.add("path", file.path);
-  json.add("format", file.format);
-  json.add("sha256", text_or_null(file.sha256));
-  json.add("faces", file.counts.faces);
-  json.add("vertices", file.counts.vertices);
-  add_ends(json, deviation.interval.lower, deviation.interval.upper);
-  json.add("verdict", verdict_name(deviation.verdict));
-  json.add_text("a_to_b", side_json(deviation.a_to_b));
-  json.add_text("b_to_a", deviation.b_to_a ? side_json(*deviation.b_to_a) : "null");
-  return json.text();
-}
-
-std::string files_json(const SimplifyAnswer& answer) {
-  std::string rows;
-  for (const SimplifiedFile& file : answer.files)
-    rows += (rows.empty() ? "" : ",") + file_json(file);
-  return "[" + rows + "]";
-}
-
-Json source_json(const SimplifyAnswer& answer) {
-  Json json = {{"path", answer.input.path}};
-  add_hashes(json, answer.input);
-  json["faces"] = answer.input.counts.faces;
-  json["vertices"] = answer.input.counts.vertices;
-  json["delta"] = answer.input.place.delta;
-  json["notes"] = notes_json(answer.input.notes, answer.input.path);
-  return json;
-}
-
-std::string limit_json(const SimplifyAnswer& answer) {
-  JsonObject json;
-  json.add("requested", answer.max.requested);
-  json.add_bound("within", answer.limit.within, Rounding::kDown);
-  json.add_bound("beyond", answer.limit.beyond, Rounding::kUp);
-  return json.text();
-}
-
 }  // namespace
 
 std::string in_words(const SimplifyAnswer& answer) {
@@ -168,27 +118,11 @@ void print_table(std::ostream& out, const SimplifyAnswer& answer) {
 }
 
 std::string to_json(const SimplifyAnswer& answer) {
-  JsonObject json;
-  json.add("schema", kSimplifySchema);
-  json.add("version", program_version());
-  json.add("words", in_words(answer));
-  json.add("input", source_json(answer));
-  json.add("unit", text_or_null(answer.unit));
-  json.add_text("max", limit_json(answer));
-  json.add("one_way", answer.one_way);
-  json.add("lock_borders", answer.lock_borders);
-  json.add("found", !answer.files.empty());
-  json.add("complete", answer.complete);
-  json.add("tried", answer.tried);
-  json.add_text("files", files_json(answer));
-  json.add("removed", Json(answer.removed));
-  json.add("certificate", text_or_null(answer.certificate));
-  json.add("device", text_or_null(answer.device.name));
-  json.add("driver", text_or_null(answer.device.driver));
-  add_waits(json, answer.waits);
-  json.add("command", "simplify");
-  json.add("arguments", answer.words);
-  return json.text();
+  return json_object([&](JsonText& json) {
+    MemberWriter writer(json, Detail::kFull);
+    writer.text("schema", kSimplifySchema);
+    visit(writer, answer);
+  });
 }
 
 std::string to_simplify_json(const Failure& failure) {

@@ -1,7 +1,12 @@
 // Surveys and metrics as rows of the table.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
+#include <string_view>
+#include <utility>
 
+#include "host/answer/figures.h"
 #include "host/base/decimal.h"
 #include "vkhausdorff/answer.h"
 
@@ -63,23 +68,6 @@ std::string field_text(const SurveyResult& survey, const Answer& answer) {
          " undecided";
 }
 
-std::string percentiles_text(const std::vector<Percentile>& percentiles, const std::string& unit,
-                             bool are_points) {
-  std::string text;
-  for (const Percentile& p : percentiles) {
-    text += (text.empty() ? "p" : "; p") + shortest_decimal(100 * p.share) + " " +
-            figure(p.distance, unit);
-    if (p.jump)
-      text +=
-          std::string(" (a jump: nearly no ") + (are_points ? "point" : "area") + " lies between)";
-  }
-  return text;
-}
-
-std::string jump_text(const AreaWithin& band) {
-  return band.jump ? " (a jump: the rest lies at this distance)" : "";
-}
-
 // Shares are known to 1e-12, which nobody wants to read: a hundredth of a percent is shown.
 std::string share_text(const Enclosure& share) {
   const Enclosure percent = in_percent(share);
@@ -119,27 +107,6 @@ std::string inside_in_words(const SignedFigures& sides) {
   return "";
 }
 
-/// A mesh whose survey becomes rows.
-struct Surveyed {
-  const char* other;  ///< the mesh on whose sides it lies
-  bool are_points;
-};
-
-void add_sides(const SignedFigures& sides, const std::string& unit, const Surveyed& of,
-               std::vector<TableRow>& rows) {
-  const bool are_points = of.are_points;
-  rows.push_back({"sides", "farthest over " + enclosure(sides.over, unit) + ", under " +
-                               enclosure(sides.under, unit)});
-  if (sides.areas)
-    rows.push_back(
-        {are_points ? "sides of" : "side area", area_of_sides(*sides.areas, are_points)});
-  if (sides.mean) {
-    rows.push_back({"signed", "mean " + figure(*sides.mean, unit)});
-    rows.push_back({"signed", percentiles_text(sides.percentiles, unit, are_points)});
-  }
-  rows.push_back({std::string("side of ") + of.other, inside_in_words(sides)});
-}
-
 const char* reason_of(SurveyEnd end) {
   switch (end) {
     case SurveyEnd::kEffort:
@@ -159,10 +126,6 @@ std::string end_text(const SurveyResult& survey) {
   return std::string(": ") + reason_of(survey.ended) +
          " before all that was asked was met, and all is true as it is";
 }
-
-}  // namespace
-
-namespace {
 
 // Counts of points that are surely, and perhaps, so many: n times a share, rounded outward.
 std::string counts_text(const Enclosure& share, uint64_t points) {
@@ -185,39 +148,116 @@ std::string kept_text(const Statistics& s, const std::string& unit) {
   return "of the " + share_text(*s.kept) + " of the area that are" + within;
 }
 
-void add_statistics(const Statistics& s, const std::string& unit, std::vector<TableRow>& rows) {
-  const bool are_points = s.points > 0;
-  if (s.kept) {
-    rows.push_back({"figures", kept_text(s, unit)});
-    if (s.kept->upper == 0) return;
-  } else if (are_points) {
-    rows.push_back({"figures", "of " + std::to_string(s.points) + " points, each alike"});
+std::string within_text(const AnswerFigure& band, const std::string& unit) {
+  return figure(in_percent(band.value), "%") + " within " + length_in_words({band.at, band.at}) +
+         (unit.empty() ? "" : " " + unit);
+}
+
+/// Why no effort narrows it.
+std::string jump_text(const AnswerFigure& figure, bool are_points) {
+  if (!figure.jump) return "";
+  if (figure.kind == FigureKind::kBand) return " (a jump: the rest lies at this distance)";
+  return std::string(" (a jump: nearly no ") + (are_points ? "point" : "area") + " lies between)";
+}
+
+/// The rows of one direction's survey, in which figures of a kind follow each other.
+class SurveyRows {
+ public:
+  SurveyRows(const Answer& answer, bool of_b)
+      : unit_(answer.unit), are_points_(answer.inputs[of_b ? 1 : 0].are_points) {
+    for (AnswerFigure& figure : figures_of(answer)) {
+      if (figure.of_b == of_b) figures_.push_back(std::move(figure));
+    }
   }
-  rows.push_back({"mean", figure(s.mean, unit) + "; root mean square " + figure(s.rms, unit)});
-  for (const AreaWithin& band : s.bands)
-    rows.push_back(
-        {are_points ? "share" : "area", figure(in_percent(band.share), "%") + " within " +
-                                            length_in_words({band.distance, band.distance}) +
-                                            (unit.empty() ? "" : " " + unit) + jump_text(band)});
-  if (!s.percentiles.empty())
-    rows.push_back({"percentile", percentiles_text(s.percentiles, unit, are_points)});
+  bool are_points() const { return are_points_; }
+  const std::string& unit() const { return unit_; }
+
+  void add(std::string label, std::string text) {
+    rows_.push_back({std::move(label), std::move(text)});
+  }
+  /// All figures of these kinds in one row.
+  void add_joined(std::initializer_list<FigureKind> kinds, const char* label, const char* between) {
+    std::string text;
+    for (const AnswerFigure& one : figures_) {
+      if (std::find(kinds.begin(), kinds.end(), one.kind) != kinds.end())
+        text += (text.empty() ? "" : between) + said(one);
+    }
+    if (!text.empty()) add(label, text);
+  }
+  /// A row for each figure of this kind; `label` empty: its name.
+  void add_each(FigureKind kind, const char* label) {
+    for (const AnswerFigure& one : figures_) {
+      if (one.kind == kind) add(*label == '\0' ? one.name : label, said(one));
+    }
+  }
+  std::vector<TableRow> rows() && { return std::move(rows_); }
+
+ private:
+  std::string said(const AnswerFigure& one) const {
+    const std::string jump = jump_text(one, are_points_);
+    switch (one.kind) {
+      case FigureKind::kOver:
+        return "farthest over " + enclosure(one.value, unit_);
+      case FigureKind::kUnder:
+        return "under " + enclosure(one.value, unit_);
+      case FigureKind::kSignedMean:
+        return "mean " + figure(one.value, unit_);
+      case FigureKind::kRms:
+        return "root mean square " + figure(one.value, unit_);
+      case FigureKind::kSignedPercentile:
+      case FigureKind::kPercentile:
+        return "p" + shortest_decimal(100 * one.at) + " " + figure(one.value, unit_) + jump;
+      case FigureKind::kBand:
+        return within_text(one, unit_) + jump;
+      default:
+        return (one.power == 0 ? figure(in_percent(one.value), "%") : figure(one.value, unit_)) +
+               jump;
+    }
+  }
+
+  std::string unit_;
+  bool are_points_;
+  std::vector<AnswerFigure> figures_;
+  std::vector<TableRow> rows_;
+};
+
+/// Says first what the figures are of.
+void add_statistics(const Statistics& s, SurveyRows& rows) {
+  if (s.kept) {
+    rows.add("figures", kept_text(s, rows.unit()));
+    if (s.kept->upper == 0) return;
+  } else if (s.points > 0) {
+    rows.add("figures", "of " + std::to_string(s.points) + " points, each alike");
+  }
+  rows.add_joined({FigureKind::kMean, FigureKind::kRms}, "mean", "; ");
+  rows.add_each(FigureKind::kBand, s.points > 0 ? "share" : "area");
+  rows.add_joined({FigureKind::kPercentile}, "percentile", "; ");
+}
+
+void add_sides(const SignedFigures& sides, const char* other, SurveyRows& rows) {
+  rows.add_joined({FigureKind::kOver, FigureKind::kUnder}, "sides", ", ");
+  if (sides.areas)
+    rows.add(rows.are_points() ? "sides of" : "side area",
+             area_of_sides(*sides.areas, rows.are_points()));
+  rows.add_joined({FigureKind::kSignedMean}, "signed", "; ");
+  rows.add_joined({FigureKind::kSignedPercentile}, "signed", "; ");
+  rows.add(std::string("side of ") + other, inside_in_words(sides));
 }
 
 }  // namespace
 
 std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& survey) {
-  std::vector<TableRow> rows;
-  const std::string& unit = answer.unit;
-  const bool are_points = is_of_points(survey, answer);
-  if (survey.faces) rows.push_back({are_points ? "points" : "faces", field_text(survey, answer)});
-  if (survey.statistics) add_statistics(*survey.statistics, unit, rows);
-  if (survey.sides)
-    add_sides(*survey.sides, unit, {is_of_b(survey, answer) ? "A" : "B", are_points}, rows);
+  const bool of_b = is_of_b(survey, answer);
+  SurveyRows rows(answer, of_b);
+  if (survey.faces) rows.add(rows.are_points() ? "points" : "faces", field_text(survey, answer));
+  if (survey.statistics) add_statistics(*survey.statistics, rows);
+  if (survey.sides) add_sides(*survey.sides, of_b ? "A" : "B", rows);
+  rows.add_each(FigureKind::kOther, "");
   std::string work = std::to_string(survey.bounded) + " cells bounded in " +
                      decimal(survey.ms / 1000, 3, Rounding::kUp) + " s";
   if (!survey.is_met()) work += end_text(survey);
-  rows.push_back({"survey", work});
-  return rows;
+  rows.add("survey", work);
+  return std::move(rows).rows();
 }
 
 namespace {
@@ -234,41 +274,42 @@ std::string in_unit(const std::string& text, const std::string& unit) {
   return unit.empty() ? text : text + " " + unit;
 }
 
-std::string metric_unit(const Answer& answer, int dimension) {
-  if (dimension == 0) return "";
-  return answer.unit.empty() || dimension == 1 ? answer.unit : answer.unit + "^2";
-}
-
-std::string goal_text(const Metric& metric) {
-  if (metric.is_met) return "";
-  return metric.jump ? "; a jump of the distribution: no --effort narrows it"
+std::string goal_text(const AnswerFigure& figure) {
+  if (figure.is_met) return "";
+  return figure.jump ? "; a jump of the distribution: no --effort narrows it"
                      : "; wider than asked: more --effort narrows it";
 }
 
-std::string metric_text(const Metric& metric, const std::string& unit) {
+std::string metric_text(const AnswerFigure& metric, const std::string& unit) {
   const Enclosure& e = metric.value;
   if (!std::isfinite(e.upper)) return "not known";
   return figure(e, unit) + goal_text(metric);
 }
 
 // `of`: what the share is of, before any remark.
-std::string share_metric_text(const Metric& metric, const std::string& of) {
-  const Enclosure percent = in_percent(metric.value);
+std::string share_metric_text(const AnswerFigure& share, const std::string& of) {
+  const Enclosure percent = in_percent(share.value);
   const std::string likely = likely_text(percent, kShownPercent) + " %";
   if (percent.lower == percent.upper) return likely + of;
-  return likely + ", in " + share_text(metric.value) + of + goal_text(metric);
-}
-
-// Whether a figure is told: it is asked for, and it is one.
-template <class Named>
-bool is_shown(const Metrics& m, const Named& named) {
-  return m.asks_for(named.name) && (m.normals || !named.of_normals);
+  return likely + ", in " + share_text(share.value) + of + goal_text(share);
 }
 
 std::string angle_text(double degrees) { return " and " + shortest_decimal(degrees) + " degrees"; }
 
-std::string distance_text(const Answer& answer, const MetricsWithin& at) {
-  return in_unit(length_in_words({at.distance, at.distance}), answer.unit);
+std::string distance_text(const Answer& answer, double distance) {
+  return in_unit(length_in_words({distance, distance}), answer.unit);
+}
+
+/// The figures that the first line has where none is asked for by name.
+bool is_told_first(const AnswerFigure& figure) {
+  constexpr std::array<std::string_view, 4> kFirst{"hausdorff", "hd_p", "assd", "chamfer_l1"};
+  if (figure.kind == FigureKind::kMetricShare) return figure.name == "f1";
+  return std::find(kFirst.begin(), kFirst.end(), figure.key) != kFirst.end();
+}
+
+/// The name by which a figure is asked for.
+std::string_view asked_name(const AnswerFigure& figure) {
+  return figure.kind == FigureKind::kMetricShare ? figure.name : figure.key;
 }
 
 }  // namespace
@@ -276,22 +317,15 @@ std::string distance_text(const Answer& answer, const MetricsWithin& at) {
 std::string metrics_in_words(const Answer& answer) {
   const Metrics& m = *answer.metrics;
   std::string text;
-  for (const NamedMetric& metric : kNamedMetrics) {
-    const bool is_first = metric.figure == &Metrics::hausdorff || metric.figure == &Metrics::hd_p ||
-                          metric.figure == &Metrics::assd || metric.figure == &Metrics::chamfer_l1;
-    if (m.figures.empty() ? !is_first : !is_shown(m, metric)) continue;
-    const Enclosure& e = (m.*metric.figure).value;
-    text += (text.empty() ? "" : ", ") + name_of(metric, m.percentile) + " " +
-            in_unit(likely_text(e, 1e-3 * e.lower), metric_unit(answer, metric.dimension));
-  }
-  for (const MetricsWithin& at : m.within) {
-    for (const NamedShare& share : kNamedShares) {
-      const bool is_first = share.figure == &MetricsWithin::f1;
-      if (m.figures.empty() ? !is_first : !is_shown(m, share)) continue;
-      text += (text.empty() ? "" : ", ") + std::string(share.name) + " " +
-              likely_text(in_percent((at.*share.figure).value), kShownPercent) + " % within " +
-              distance_text(answer, at);
-    }
+  for (const AnswerFigure& figure : figures_of(answer)) {
+    if (figure.kind < FigureKind::kMetric) continue;
+    if (m.figures.empty() ? !is_told_first(figure) : !m.asks_for(asked_name(figure))) continue;
+    const Enclosure& e = figure.value;
+    text += (text.empty() ? "" : ", ") + figure.name + " ";
+    text += figure.kind == FigureKind::kMetric
+                ? in_unit(likely_text(e, 1e-3 * e.lower), unit_of(answer.unit, figure.power))
+                : likely_text(in_percent(e), kShownPercent) + " % within " +
+                      distance_text(answer, figure.at);
   }
   return text + (m.is_met() ? "" : "; not all are as narrow as asked");
 }
@@ -299,20 +333,14 @@ std::string metrics_in_words(const Answer& answer) {
 std::vector<TableRow> metrics_rows(const Answer& answer) {
   const Metrics& m = *answer.metrics;
   std::vector<TableRow> rows;
-  rows.reserve(kNamedMetrics.size() + kNamedShares.size() * m.within.size());
-  for (const NamedMetric& metric : kNamedMetrics) {
-    if (is_shown(m, metric))
-      rows.push_back({name_of(metric, m.percentile),
-                      metric_text(m.*metric.figure, metric_unit(answer, metric.dimension))});
-  }
-  for (const MetricsWithin& at : m.within) {
-    for (const NamedShare& share : kNamedShares) {
-      if (is_shown(m, share))
-        rows.push_back(
-            {share.name, share_metric_text(at.*share.figure,
-                                           " within " + distance_text(answer, at) +
-                                               (share.of_normals ? angle_text(*m.normals) : ""))});
-    }
+  for (const AnswerFigure& figure : figures_of(answer)) {
+    if (figure.kind < FigureKind::kMetric || !m.asks_for(asked_name(figure))) continue;
+    rows.push_back(
+        {figure.name,
+         figure.kind == FigureKind::kMetric
+             ? metric_text(figure, unit_of(answer.unit, figure.power))
+             : share_metric_text(figure, " within " + distance_text(answer, figure.at) +
+                                             (figure.of_normals ? angle_text(*m.normals) : ""))});
   }
   return rows;
 }

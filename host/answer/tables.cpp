@@ -1,9 +1,14 @@
 #include "host/answer/tables.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
+#include "host/answer/figures.h"
 #include "host/base/decimal.h"
+#include "host/base/rounding.h"
 
 namespace vkh {
 namespace {
@@ -37,27 +42,39 @@ std::string joined(const std::vector<std::string>& lines) {
 
 std::string milliseconds(double ms) { return number_text(ms, std::chars_format::fixed, 3); }
 
-// The names of the columns of signed figures, but for the last: each has a lower and an upper end.
-std::vector<std::string> names_of_sides() {
-  std::vector<std::string> names{"over", "under", "signed_mean"};
-  for (const double share : kSignedShares)
-    names.push_back("signed_p" + shortest_decimal(100 * share));
-  return names;
+// No more of A's area has no side.
+double unsigned_share(const SignedFigures::Areas& areas) {
+  return std::max(add_up(add_up(1, -areas.over.lower), -areas.under.lower), 0.0);
 }
 
-void add_sides(const Record& r, std::vector<std::string>& cells) {
-  std::vector<std::optional<Enclosure>> figures;
-  if (r.sides) figures = {r.sides->over, r.sides->under, r.sides->mean};
-  if (r.sides) {
-    for (const Percentile& p : r.sides->percentiles) figures.emplace_back(p.distance);
+using Cells = std::vector<std::string>;
+
+/// The figures of a result that have columns, by their names: sides of A, and metrics.
+std::map<std::string, AnswerFigure> columns_of(const Answer& answer) {
+  std::map<std::string, AnswerFigure> columns;
+  for (AnswerFigure& figure : figures_of(answer)) {
+    if (figure.in_batch && !figure.of_b) columns.emplace(figure.key, std::move(figure));
   }
-  figures.resize(names_of_sides().size());
-  for (const std::optional<Enclosure>& figure : figures) {
-    cells.push_back(figure ? bound(figure->lower, Rounding::kDown) : "");
-    cells.push_back(figure ? bound(figure->upper, Rounding::kUp) : "");
+  return columns;
+}
+
+void add_ends(const Enclosure& e, Cells& cells) {
+  cells.push_back(bound(e.lower, Rounding::kDown));
+  cells.push_back(bound(e.upper, Rounding::kUp));
+}
+
+void add_sides(const Answer& answer, Cells& cells) {
+  const auto figures = columns_of(answer);
+  for (const std::string& name : survey_columns()) {
+    const auto found = figures.find(name);
+    if (found == figures.end())
+      cells.resize(cells.size() + 2);
+    else
+      add_ends(found->second.value, cells);
   }
-  const bool has_share = r.sides && r.sides->unsigned_share;
-  cells.push_back(has_share ? bound(*r.sides->unsigned_share, Rounding::kUp) : "");
+  const SignedFigures* sides = sides_of(answer, false);
+  const bool has_areas = sides != nullptr && sides->areas;
+  cells.push_back(has_areas ? bound(unsigned_share(*sides->areas), Rounding::kUp) : "");
 }
 
 // Each figure has three columns: what it probably is, and its ends.
@@ -65,40 +82,49 @@ void add_names(const std::string& name, std::vector<std::string>& cells) {
   for (const char* end : {"", "_lower", "_upper"}) cells.push_back(name + end);
 }
 
-void add_names_of_metrics(const CsvColumns& with, std::vector<std::string>& cells) {
-  cells.emplace_back("percentile");
+/// Calls `condition` with each column that tells what the figures after it are of, the percentile
+/// or a distance by its number from 1, and `figure` with each figure's name.
+template <class Condition, class Figure>
+void for_each_metric(const CsvColumns& with, const Condition& condition, const Figure& figure) {
+  condition("percentile", 0);
   for (const NamedMetric& metric : kNamedMetrics) {
-    if (with.normals || !metric.of_normals) add_names(metric.name, cells);
+    if (with.normals || !metric.of_normals) figure(metric.name);
   }
   for (size_t i = 1; i <= with.distances; ++i) {
-    cells.push_back("within_" + std::to_string(i));
+    const std::string end = "_" + std::to_string(i);
+    condition("within" + end, i);
     for (const NamedShare& share : kNamedShares) {
-      if (with.normals || !share.of_normals)
-        add_names(share.name + ("_" + std::to_string(i)), cells);
+      if (with.normals || !share.of_normals) figure(share.name + end);
     }
   }
 }
 
-void add_figure(const Metric& metric, std::vector<std::string>& cells) {
-  const Enclosure& e = metric.value;
-  cells.push_back(e.estimate ? decimal_between(*e.estimate, e.lower, e.upper) : "");
-  cells.push_back(bound(e.lower, Rounding::kDown));
-  cells.push_back(bound(e.upper, Rounding::kUp));
+void add_names_of_metrics(const CsvColumns& with, Cells& cells) {
+  for_each_metric(
+      with, [&](const std::string& name, size_t) { cells.push_back(name); },
+      [&](const std::string& name) { add_names(name, cells); });
 }
 
-// A record without figures of normals has none of them in its columns.
-void add_metrics_cells(const Metrics& m, bool has_normals, std::vector<std::string>& cells) {
-  const auto add = [&](const Metric& metric, bool of_normals) {
-    if (of_normals && !has_normals) return;
-    if (of_normals && !m.normals) return cells.resize(cells.size() + 3);
-    add_figure(metric, cells);
-  };
-  cells.push_back(shortest_decimal(m.percentile));
-  for (const NamedMetric& metric : kNamedMetrics) add(m.*metric.figure, metric.of_normals);
-  for (const MetricsWithin& at : m.within) {
-    cells.push_back(shortest_decimal(at.distance));
-    for (const NamedShare& share : kNamedShares) add(at.*share.figure, share.of_normals);
-  }
+std::string condition_text(const Metrics& m, size_t number) {
+  if (number == 0) return shortest_decimal(m.percentile);
+  return number <= m.within.size() ? shortest_decimal(m.within[number - 1].distance) : "";
+}
+
+/// An answer without figures of normals, or of so many distances, has nothing in those columns.
+void add_metrics_cells(const Answer& answer, const CsvColumns& with, Cells& cells) {
+  const auto figures = columns_of(answer);
+  for_each_metric(
+      with,
+      [&](const std::string&, size_t number) {
+        cells.push_back(answer.metrics ? condition_text(*answer.metrics, number) : "");
+      },
+      [&](const std::string& name) {
+        const auto found = figures.find(name);
+        if (found == figures.end()) return cells.resize(cells.size() + 3);
+        const Enclosure& e = found->second.value;
+        cells.push_back(e.estimate ? decimal_between(*e.estimate, e.lower, e.upper) : "");
+        add_ends(e, cells);
+      });
 }
 
 }  // namespace
@@ -107,60 +133,56 @@ std::string csv_heading(const CsvColumns& with) {
   std::vector<std::string> cells{"id",   "code", "status", "verdict", "lower",   "upper", "gap",
                                  "unit", "a",    "b",      "faces_a", "faces_b", "words", "notes"};
   if (with.run) cells.insert(cells.end(), {"gpu_ms", "total_ms", "host", "started"});
-  for (const std::string& name : with.sides ? names_of_sides() : std::vector<std::string>())
-    cells.insert(cells.end(), {name + "_lower", name + "_upper"});
-  if (with.sides) cells.emplace_back("unsigned_share");
+  if (with.sides) {
+    for (const std::string& name : survey_columns())
+      cells.insert(cells.end(), {name + "_lower", name + "_upper"});
+    cells.emplace_back("unsigned_share");
+  }
   if (with.metrics) add_names_of_metrics(with, cells);
   return row_of(cells);
 }
 
-std::string csv_row(const Record& r, const CsvColumns& with) {
-  const bool has_answer = !r.status.empty();
-  const auto known = [&](const std::string& text) { return has_answer ? text : std::string(); };
+std::string csv_row(const Result& r, const CsvColumns& with) {
+  const Answer& answer = r.answer;
+  const CertifiedInterval whole = interval_of(answer);
+  const auto known = [&](const std::string& text) { return r.has_answer() ? text : ""; };
   const auto sought = [&](const std::string& text) {
-    return r.is_upper_sought() ? known(text) : std::string();
+    return r.is_upper_sought() ? known(text) : "";
   };
-  std::vector<std::string> cells{
-      r.name.id,
-      std::to_string(static_cast<int>(r.code)),
-      r.status,
-      r.verdict,
-      known(bound(r.lower, Rounding::kDown)),
-      sought(bound(r.upper, Rounding::kUp)),
-      sought(shortest_decimal(r.gap)),
-      r.unit,
-      r.inputs[0].path,
-      r.inputs[1].path,
-      known(std::to_string(r.inputs[0].faces)),
-      known(std::to_string(r.inputs[1].faces)),
-      r.words,
-      joined(server_notes(r.notes, r.inputs[0].notes, r.inputs[1].notes))};
+  std::vector<std::string> cells{r.name.id,
+                                 std::to_string(static_cast<int>(r.code)),
+                                 known(status_name(whole.status)),
+                                 answer.max ? verdict_name(verdict_of(answer)) : "",
+                                 known(bound(whole.lower, Rounding::kDown)),
+                                 sought(bound(whole.upper, Rounding::kUp)),
+                                 sought(shortest_decimal(std::isfinite(whole.gap) ? whole.gap : 0)),
+                                 answer.unit,
+                                 answer.inputs[0].path,
+                                 answer.inputs[1].path,
+                                 known(std::to_string(answer.inputs[0].counts.faces)),
+                                 known(std::to_string(answer.inputs[1].counts.faces)),
+                                 r.words(),
+                                 joined(server_notes(answer))};
   if (with.run)
-    cells.insert(cells.end(),
-                 {milliseconds(r.gpu_ms), milliseconds(r.total_ms), r.host, r.started});
-  if (with.sides) add_sides(r, cells);
-  const size_t before = cells.size();
-  if (with.metrics && r.metrics) add_metrics_cells(*r.metrics, with.normals, cells);
-  if (with.metrics) {
-    std::vector<std::string> names;
-    add_names_of_metrics(with, names);
-    cells.resize(before + names.size());
-  }
+    cells.insert(cells.end(), {milliseconds(r.gpu_ms), milliseconds(answer.waits.total),
+                               answer.host, answer.started});
+  if (with.sides) add_sides(answer, cells);
+  if (with.metrics) add_metrics_cells(answer, with, cells);
   return row_of(cells);
 }
 
-JunitCase junit_case(const Record& r, bool with_run) {
+JunitCase junit_case(const Result& r, bool with_run) {
   JunitCase one{.command = "batch",
                 .name = r.name.id,
-                .words = r.words,
-                .seconds = with_run ? r.total_ms / 1000 : 0};
-  one.notes = server_notes(r.notes, r.inputs[0].notes, r.inputs[1].notes);
+                .words = r.words(),
+                .seconds = with_run ? r.answer.waits.total / 1000 : 0};
+  one.notes = server_notes(r.answer);
   if (r.code == kExitBeyond) {
     one.element = "failure";
     one.type = "beyond the limit";
   } else if (r.code != kExitClosed) {
     one.element = "error";
-    one.type = r.status.empty() ? "no answer" : "undecided";
+    one.type = r.has_answer() ? "undecided" : "no answer";
   }
   return one;
 }

@@ -4,24 +4,24 @@
 #include <functional>
 #include <string>
 
-#include "host/answer/record.h"
+#include "host/answer/result.h"
 
 namespace vkh {
 
 /// The columns of a CSV besides those that each has.
 struct CsvColumns {
   bool run = false;      ///< times, which two runs do not have in common
-  bool sides = false;    ///< signed figures: some record has them
-  bool metrics = false;  ///< some record has them
-  bool normals = false;  ///< some record's metrics have figures of normals
-  size_t distances = 0;  ///< the most distances that a record's metrics have shares within
+  bool sides = false;    ///< signed figures: some result has them
+  bool metrics = false;  ///< some result has them
+  bool normals = false;  ///< some result's metrics have figures of normals
+  size_t distances = 0;  ///< the most distances that a result's metrics have shares within
 };
 /// CSV (RFC 4180): a heading, and a row per pair.
 std::string csv_heading(const CsvColumns& with);
-std::string csv_row(const Record& record, const CsvColumns& with);
+std::string csv_row(const Result& result, const CsvColumns& with);
 
 /// A JUnit test case: failed where it is beyond the limit, in error where it is undecided, not
 /// closed or without an answer.
-JunitCase junit_case(const Record& record, bool with_run);
+JunitCase junit_case(const Result& result, bool with_run);
 
 }  // namespace vkh

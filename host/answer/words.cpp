@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine/vkhausdorff.h"
+#include "host/answer/members.h"
 #include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
@@ -487,12 +488,25 @@ std::string printable(const std::string& text) {
   return out;
 }
 
-std::string in_words(const Answer& answer) {
-  if (!answer.first_line.empty()) return answer.first_line;
+namespace {
+
+std::string first_line_of(const Answer& answer) {
   if (answer.metrics) return warned(answer, after_fit(answer, metrics_in_words(answer)));
   if (!answer.max) return warned(answer, after_fit(answer, distance_in_words(answer)));
   return warned(answer, after_fit(answer, gate_in_words(answer))) +
          (is_one_way_pass(answer) ? std::string(". ") + one_way_text(answer) : "");
+}
+
+}  // namespace
+
+std::string in_words(const Answer& answer) {
+  return answer.first_line.empty() ? first_line_of(answer) : answer.first_line;
+}
+
+std::optional<std::string> implied_words(const Answer& answer) {
+  const std::optional<Asked>& max = answer.max;
+  if (max && (max->area || max->faces_a || max->faces_b)) return std::nullopt;
+  return first_line_of(answer);
 }
 
 std::vector<Note> notes_of(const Answer& answer) {

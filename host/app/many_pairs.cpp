@@ -48,17 +48,18 @@ class Tables {
 
   void write(const Results& results, bool with_run) const {
     CsvColumns with{.run = with_run};
-    results.for_each([&](const Record& record, const std::string&) {
-      with.sides = with.sides || record.sides.has_value();
-      with.metrics = with.metrics || record.metrics.has_value();
-      with.normals = with.normals || (record.metrics && record.metrics->normals);
-      if (record.metrics) with.distances = std::max(with.distances, record.metrics->within.size());
+    results.for_each([&](const Result& result, const std::string&) {
+      const std::optional<Metrics>& metrics = result.answer.metrics;
+      with.sides = with.sides || sides_of(result.answer, false) != nullptr;
+      with.metrics = with.metrics || metrics.has_value();
+      with.normals = with.normals || (metrics && metrics->normals);
+      if (metrics) with.distances = std::max(with.distances, metrics->within.size());
     });
     std::vector<std::pair<Rank, std::string>> rows;
     std::vector<JunitCase> cases;
-    results.for_each([&](const Record& record, const std::string&) {
-      if (csv_) rows.emplace_back(rank_of(record), csv_row(record, with));
-      if (junit_) cases.push_back(junit_case(record, with_run));
+    results.for_each([&](const Result& result, const std::string&) {
+      if (csv_) rows.emplace_back(rank_of(result), csv_row(result, with));
+      if (junit_) cases.push_back(junit_case(result, with_run));
     });
     if (csv_) csv_->write(csv_heading(with) + worst_first(std::move(rows)));
     if (junit_) junit_->write(to_junit(cases, "", ""));
@@ -240,9 +241,9 @@ ExitCode run_merge_command(const MergeAsked& asked) {
   for (const std::string& file : asked.files) results.add(file);
   std::string text;
   Totals totals;
-  results.for_each([&](const Record& record, const std::string& line) {
+  results.for_each([&](const Result& result, const std::string& line) {
     text += (asked.reproducible ? without_run(line) : line) + '\n';
-    totals.add(record);
+    totals.add(result);
   });
   std::vector<std::string> missing;
   if (!asked.list.empty()) {

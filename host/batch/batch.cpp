@@ -90,6 +90,12 @@ class Batch {
     uint64_t bytes = 0;
     std::optional<Answer> surveyed = {};  ///< the answer with its survey, where one was asked for
   };
+  /// A line of an earlier run.
+  struct Older {
+    std::string key;
+    bool is_final;
+    Counted counted;
+  };
 
   static std::vector<std::string> inputs_of(const BatchJob& job) {
     std::vector<std::string> files;
@@ -102,7 +108,7 @@ class Batch {
   }
 
   void keep_older_lines() {
-    if (file_.size() > 0 && !file_.begins_with(kRecordStart))
+    if (file_.size() > 0 && !file_.begins_with(kResultStart))
       throw UsageError({.option = "--out",
                         .file = job_.results,
                         .problem = "is a file, and no batch's results"});
@@ -114,9 +120,9 @@ class Batch {
     file_.read([&](std::string_view line) {
       ++number;
       try {
-        Record record = read_record(line);
-        if (!record.status.empty()) record.words.clear();  // not needed any more
-        older_.insert_or_assign(record.name.id, std::move(record));
+        const Result result = read_result(line);
+        older_.insert_or_assign(result.name.id,
+                                Older{result.name.key, result.is_final(), counted(result)});
       } catch (const InputError& error) {
         throw InputError({.file = job_.results,
                           .place = "line " + std::to_string(number),
@@ -207,15 +213,14 @@ class Batch {
 
   bool is_done(const NamedEntry& entry) {
     const auto older = older_.find(entry.name.id);
-    if (older == older_.end() || !older->second.is_final() ||
-        older->second.name.key != entry.name.key)
+    if (older == older_.end() || !older->second.is_final || older->second.key != entry.name.key)
       return false;
-    const bool is_drawn = !job_.folders || older->second.status.empty() ||
+    const bool is_drawn = !job_.folders || !older->second.counted.has_answer() ||
                           job_.folders->has(entry.name, entry.question.symmetric);
     if (!is_drawn) return false;
     const std::lock_guard lock(mutex_);
     if (kept_.insert(entry.name.id).second) {
-      totals_.add_kept(older->second);
+      totals_.add_kept(older->second.counted);
       show();
     }
     return true;
@@ -341,15 +346,16 @@ class Batch {
     const bool is_to_be_done_again = is_cancelled(answer) || is_survey_cancelled(answer.survey_a) ||
                                      is_survey_cancelled(answer.survey_b);
     if (is_to_be_done_again) return;
-    write(to_record(entry.name, answer), record_of(entry.name, answer));
+    write(result_of(entry.name, answer));
   }
 
   void write_failure(const NamedEntry& entry, const std::exception_ptr& error) {
     const Failure failure = failure_of(error, *entry.entry);
-    write(to_record(entry.name, failure, entry.known), record_of(entry.name, failure, entry.known));
+    write(result_of(entry.name, failure, entry.known));
   }
 
-  void write(const std::string& line, const Record& record) {
+  void write(const Result& result) {
+    const std::string line = to_line(result);
     const std::lock_guard lock(mutex_);
     if (error_) return;
     try {
@@ -359,9 +365,9 @@ class Batch {
       stopped_ = true;
       return;
     }
-    totals_.add(record);
+    totals_.add(result);
     show();
-    const bool is_bad = record.code == kExitBeyond || record.status.empty();
+    const bool is_bad = result.code == kExitBeyond || !result.has_answer();
     if (job_.fails_fast && is_bad) stopped_ = true;
   }
 
@@ -380,7 +386,7 @@ class Batch {
   Budget budget_;
   EntryReader reader_;
   ProgressLine line_;
-  std::unordered_map<std::string, Record> older_;
+  std::unordered_map<std::string, Older> older_;
   std::mutex mutex_;
   std::atomic<bool> stopped_ = false;
   std::exception_ptr error_;

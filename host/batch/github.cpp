@@ -31,23 +31,23 @@ const char* mark_for(const std::string& level) {
 
 /// The path from here of the file that the annotation stands beside: A's, unless the error is of B.
 /// GitHub looks for it as it is written, without resolving "..".
-std::string file_beside(const Record& record, const Entry& entry) {
-  const bool is_of_b = record.error_file == entry.b && record.error_file != entry.a;
+std::string file_beside(const Result& result, const Entry& entry) {
+  const bool is_of_b =
+      result.failure && result.failure->file == entry.b && result.failure->file != entry.a;
   const std::string& file = entry.file_a.empty() || is_of_b ? entry.file_b : entry.file_a;
   const std::u8string name = path_of(file).lexically_normal().generic_u8string();
   return {name.begin(), name.end()};
 }
 
-OfPair texts_of(const Record& record, const Entry& entry) {
-  OfPair pair{.rank = rank_of(record), .annotation = {}, .row = {}};
-  GithubAnnotation one{
-      .level = level_of(pair.rank.outcome),
-      .file = file_beside(record, entry),
-      .title = "vkhausdorff batch: " + record.name.id,
-      .words = printable(record.words),
-      .notes = server_notes(record.notes, record.inputs[0].notes, record.inputs[1].notes)};
-  pair.row = std::string("| ") + mark_for(one.level) + " | " + github_code(record.name.id) + " | " +
-             github_code(record.words);
+OfPair texts_of(const Result& result, const Entry& entry) {
+  OfPair pair{.rank = rank_of(result), .annotation = {}, .row = {}};
+  GithubAnnotation one{.level = level_of(pair.rank.outcome),
+                       .file = file_beside(result, entry),
+                       .title = "vkhausdorff batch: " + result.name.id,
+                       .words = printable(result.words()),
+                       .notes = server_notes(result.answer)};
+  pair.row = std::string("| ") + mark_for(one.level) + " | " + github_code(result.name.id) + " | " +
+             github_code(result.words());
   for (const std::string& note : one.notes) pair.row += "<br>" + github_code(note);
   pair.row += " |\n";
   if (one.level != "notice" || !one.notes.empty()) pair.annotation = github_line(one);
@@ -79,11 +79,11 @@ GithubTexts github_texts(const BatchJob& batch) {
   results.add(batch.results);
   Totals totals;
   std::vector<OfPair> pairs;
-  results.for_each([&](const Record& record, const std::string&) {
-    const auto entry = entries.find(record.name.id);
+  results.for_each([&](const Result& result, const std::string&) {
+    const auto entry = entries.find(result.name.id);
     if (entry == entries.end()) return;
-    totals.add(record);
-    pairs.push_back(texts_of(record, *entry->second));
+    totals.add(result);
+    pairs.push_back(texts_of(result, *entry->second));
   });
   std::sort(pairs.begin(), pairs.end(),
             [](const OfPair& x, const OfPair& y) { return is_worse(x.rank, y.rank); });

@@ -26,46 +26,54 @@ struct Mark {
   std::string word;
 };
 
-Mark mark_of(const Record& record) {
+Mark mark_of(const Result& result) {
   const char* const styles[] = {"fail", "fail", "open", "plain", "pass"};
-  return {styles[static_cast<size_t>(outcome_of(record))], outcome_word(record)};
+  return {styles[static_cast<size_t>(outcome_of(result))], outcome_word(result)};
 }
 
 /// The ratio to A's diagonal: a lower bound if a pair is beyond its limit, since its run ends
 /// there; else an upper bound.
-std::string ratio_in_words(const Record& record) {
-  const bool is_beyond = outcome_of(record) == Outcome::kBeyond;
-  const double bound = is_beyond ? record.lower : record.upper;
-  if (!std::isfinite(bound) || !(record.diagonal > 0)) return "";
-  if (!is_beyond) return "at most " + percent_up(divide_up(bound, record.diagonal));
-  const double ratio = divide_down(bound, record.diagonal);
+std::string ratio_in_words(const Result& result) {
+  const bool is_beyond = outcome_of(result) == Outcome::kBeyond;
+  const CertifiedInterval whole = interval_of(result.answer);
+  const double bound = is_beyond ? whole.lower : whole.upper;
+  const double diagonal = result.answer.a_to_b.diagonal_a;
+  if (!std::isfinite(bound) || !(diagonal > 0)) return "";
+  if (!is_beyond) return "at most " + percent_up(divide_up(bound, diagonal));
+  const double ratio = divide_down(bound, diagonal);
   return "at least " + decimal(multiply_down(100, ratio), 3, Rounding::kDown) + " %";
 }
 
-std::string limit_in_words(const Record& record) {
-  const std::string share = share_of_limit_text(record);
+Limit limit_of(const Result& result) {
+  return has_limit(result) ? result.answer.max->limit : Limit{};
+}
+
+std::string limit_in_words(const Result& result) {
+  const std::string share = share_of_limit_text(result);
   return share.empty() ? "" : "at least " + share + " times";
 }
 
 /// The interval, or the lower end alone if a run ended beyond its limit: its upper end means
 /// nothing.
-std::string deviation_in_words(const Record& record) {
-  const Enclosure deviation{record.lower, record.is_upper_sought()
-                                              ? record.upper
-                                              : std::numeric_limits<double>::infinity()};
-  const std::string text = figure_text(deviation, record.limit);
-  return record.unit.empty() || text == "not known" ? text : text + " " + record.unit;
+std::string deviation_in_words(const Result& result) {
+  const CertifiedInterval whole = interval_of(result.answer);
+  const Enclosure deviation{whole.lower, result.is_upper_sought()
+                                             ? whole.upper
+                                             : std::numeric_limits<double>::infinity()};
+  const std::string text = figure_text(deviation, limit_of(result));
+  const std::string& unit = result.answer.unit;
+  return unit.empty() || text == "not known" ? text : text + " " + unit;
 }
 
 void sort_worst_first(std::vector<IndexRow>& rows) {
   std::sort(rows.begin(), rows.end(), [](const IndexRow& x, const IndexRow& y) {
-    return is_worse(rank_of(x.record), rank_of(y.record));
+    return is_worse(rank_of(x.result), rank_of(y.result));
   });
 }
 
 bool has_any_limit(const IndexContents& contents) {
   return std::any_of(contents.rows.begin(), contents.rows.end(),
-                     [](const IndexRow& row) { return row.record.limit.beyond > 0; });
+                     [](const IndexRow& row) { return has_limit(row.result); });
 }
 
 /// The two parts of words that begin with a verdict and two spaces.
@@ -101,18 +109,19 @@ std::string without_advice(const std::string& words) {
 
 /// The words that its row's other cells do not have: a PASS has its limit, and a warning where its
 /// words begin with one.
-std::string more_words(const Record& record) {
-  const std::string rest = said_in(record.words).rest;
-  if (outcome_of(record) == Outcome::kClosed) return "";
-  if (outcome_of(record) != Outcome::kWithin) return without_advice(rest);
+std::string more_words(const Result& result) {
+  const std::string rest = said_in(result.words()).rest;
+  if (outcome_of(result) == Outcome::kClosed) return "";
+  if (outcome_of(result) != Outcome::kWithin) return without_advice(rest);
   const size_t warning = rest.starts_with("if the inputs are right") ? rest.find("): ") : 0;
   if (warning != 0 && warning != std::string::npos) return rest.substr(0, warning + 1);
-  if (!(record.limit.beyond > 0)) return "";
-  return "limit " + length_in_words(record.limit) + (record.unit.empty() ? "" : " " + record.unit);
+  if (!has_limit(result)) return "";
+  const std::string& unit = result.answer.unit;
+  return "limit " + length_in_words(limit_of(result)) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string colours_in_words(const IndexContents& contents) {
-  const auto has_verdict = [](const IndexRow& row) { return !row.record.verdict.empty(); };
+  const auto has_verdict = [](const IndexRow& row) { return row.result.answer.max.has_value(); };
   const auto& rows = contents.rows;
   std::string text;
   if (std::any_of(rows.begin(), rows.end(), has_verdict))
@@ -129,7 +138,7 @@ std::string colours_in_words(const IndexContents& contents) {
 
 Json head_of(const IndexContents& contents) {
   Totals totals;
-  for (const IndexRow& row : contents.rows) totals.add(row.record);
+  for (const IndexRow& row : contents.rows) totals.add(row.result);
   Totals::Run run;
   run.left = contents.left;
   run.has_limit = contents.has_limit;
@@ -155,16 +164,16 @@ Json pictures_of(const IndexRow& row, const PictureOptions& options) {
 }
 
 Json row_of(const IndexRow& row, const IndexContents& contents) {
-  const Record& record = row.record;
-  const bool has_answer = !record.status.empty();
-  const Mark mark = mark_of(record);
-  return {{"name", record.name.id},
-          {"more", more_words(record)},
+  const Result& result = row.result;
+  const bool has_answer = result.has_answer();
+  const Mark mark = mark_of(result);
+  return {{"name", result.name.id},
+          {"more", more_words(result)},
           {"style", mark.style},
           {"word", mark.word},
-          {"deviation", has_answer ? deviation_in_words(record) : ""},
-          {"of_limit", limit_in_words(record)},
-          {"of_diagonal", has_answer ? ratio_in_words(record) : ""},
+          {"deviation", has_answer ? deviation_in_words(result) : ""},
+          {"of_limit", limit_in_words(result)},
+          {"of_diagonal", has_answer ? ratio_in_words(result) : ""},
           {"none", has_answer ? "none" : ""},
           {"report", row.report},
           {"pictures", pictures_of(row, contents.look.options)}};

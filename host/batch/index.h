@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "host/answer/record.h"
+#include "host/answer/result.h"
 #include "host/show/draw_answer.h"
 
 namespace vkh {
 
 /// A pair, and the names of its files beside the page.
 struct IndexRow {
-  Record record;
+  Result result;
   std::vector<std::string> pictures = {};
   std::string report = {};  ///< empty: none
 };

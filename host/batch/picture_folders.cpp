@@ -56,14 +56,14 @@ BatchFolders::BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& 
   }
 }
 
-std::string BatchFolders::key_of(const RecordName& name) const {
+std::string BatchFolders::key_of(const ResultName& name) const {
   const std::string effort = asked_.effort ? "\neffort " + std::to_string(*asked_.effort) : "";
   const std::string most =
       asked_.max_distance ? "\nmax-distance " + asked_.max_distance->requested : "";
   return name.key + "\n" + text_of(asked_.look) + effort + most;
 }
 
-bool BatchFolders::has(const RecordName& name, bool symmetric) const {
+bool BatchFolders::has(const ResultName& name, bool symmetric) const {
   const std::string key = key_of(name);
   if (reports_ && !reports_->has(name.id, false, key)) return false;
   if (!images_) return true;
@@ -124,15 +124,15 @@ void BatchFolders::write_indexes(const std::string& file, const std::vector<Entr
   for (const Entry& entry : entries) index.left += results.has(entry.id) ? 0 : 1;
   const auto write = [&](const PairFolder& folder, bool has_images, bool has_reports) {
     index.rows.clear();
-    results.for_each([&](const Record& record, const std::string&) {
-      const std::string key = key_of(record.name);
-      IndexRow row{.record = record};
+    results.for_each([&](const Result& result, const std::string&) {
+      const std::string key = key_of(result.name);
+      IndexRow row{.result = result};
       for (const bool back : {false, true}) {
-        if (has_images && images_->has(record.name.id, back, key))
-          row.pictures.push_back(images_->name_of(record.name.id, back));
+        if (has_images && images_->has(result.name.id, back, key))
+          row.pictures.push_back(images_->name_of(result.name.id, back));
       }
-      if (has_reports && reports_->has(record.name.id, false, key))
-        row.report = reports_->name_of(record.name.id, false);
+      if (has_reports && reports_->has(result.name.id, false, key))
+        row.report = reports_->name_of(result.name.id, false);
       index.rows.push_back(std::move(row));
     });
     index.has_pictures = has_images;

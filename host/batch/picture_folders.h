@@ -39,7 +39,7 @@ class BatchFolders {
                const std::vector<std::string>& taken);
 
   /// Whether files of this answer, drawn as requested, exist from before.
-  bool has(const RecordName& name, bool symmetric) const;
+  bool has(const ResultName& name, bool symmetric) const;
 
   /// Asks for what the files show of a pair.
   void ask(Question& question) const;
@@ -60,7 +60,7 @@ class BatchFolders {
   size_t left() const;
 
  private:
-  std::string key_of(const RecordName& name) const;
+  std::string key_of(const ResultName& name) const;
   void write(const EndedPair& pair, Answer& answer) const;
   bool are_one() const;
 

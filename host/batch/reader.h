@@ -9,7 +9,7 @@
 #include <string>
 
 #include "host/answer/input_hashes.h"
-#include "host/answer/record.h"
+#include "host/answer/result.h"
 #include "host/answer/steps.h"
 #include "host/answer/stop.h"
 #include "host/batch/list.h"
@@ -23,7 +23,7 @@ constexpr uint64_t kBytesOfAByte = 3;
 struct NamedEntry {
   const Entry* entry = nullptr;
   Question question;
-  RecordName name;
+  ResultName name;
   Answer known;             ///< the known answer, with its inputs' hashes
   uint64_t file_bytes = 0;  ///< the size of all files that are read for it alone
 };

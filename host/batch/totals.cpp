@@ -22,16 +22,17 @@ std::string number(const char* format, double value) {
 std::string count_of(size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
 /// "FAIL  at least 0.347 mm, 3.47 times its limit  id". The upper end of a FAIL means nothing.
-std::string in_a_row(const Record& record) {
-  const std::string lower = decimal(record.lower, 7, Rounding::kDown);
-  const bool has_upper = outcome_of(record) != Outcome::kBeyond;
-  std::string text = outcome_word(record) + std::string("  ");
-  text += has_upper ? "[" + lower + ", " + decimal(record.upper, 7, Rounding::kUp) + "]"
+std::string in_a_row(const Counted& one) {
+  const std::string lower = decimal(one.lower, 7, Rounding::kDown);
+  const bool has_upper = one.rank.outcome != Outcome::kBeyond;
+  std::string text = one.word + std::string("  ");
+  text += has_upper ? "[" + lower + ", " + decimal(one.upper, 7, Rounding::kUp) + "]"
                     : "at least " + lower;
-  if (!record.unit.empty()) text += " " + record.unit;
-  const std::string share = share_of_limit_text(record);
-  if (!share.empty()) text += (has_upper ? ", at least " : ", ") + share + " times its limit";
-  return text + "  " + printable(record.name.id);
+  if (!one.unit.empty()) text += " " + one.unit;
+  if (one.rank.has_limit)
+    text += (has_upper ? ", at least " : ", ") + decimal(one.rank.size, 3, Rounding::kDown) +
+            " times its limit";
+  return text + "  " + printable(one.rank.id);
 }
 
 }  // namespace
@@ -40,36 +41,52 @@ std::string percent_up(double ratio) {
   return decimal(multiply_up(100, ratio), 3, Rounding::kUp) + " %";
 }
 
-void Totals::add(const Record& record) {
-  worst_ = worse(worst_, record.code);
-  if (record.status.empty()) {
-    unpaired_ += record.is_unpaired() ? 1 : 0;
-    if (++failed_ <= kTop) failures_.push_back(record.name.id + ": " + record.words);
-    return;
-  }
-  const bool has_verdict = !record.verdict.empty();
-  has_metrics_ = has_metrics_ || record.metrics.has_value();
-  ++(record.code == kExitBeyond      ? beyond_
-     : record.code == kExitNotClosed ? open_
-     : has_verdict                   ? within_
-                                     : closed_);
-  put_in_order(record);
-  const bool has_ratio = !has_verdict && std::isfinite(record.upper) && record.diagonal > 0;
-  if (has_ratio) ratios_.push_back(divide_up(record.upper, record.diagonal));
+Counted counted(const Result& result) {
+  const Answer& answer = result.answer;
+  const CertifiedInterval whole = interval_of(answer);
+  Counted one{.rank = rank_of(result),
+              .code = result.code,
+              .is_unpaired = result.is_unpaired(),
+              .has_metrics = answer.metrics.has_value(),
+              .failure = result.failure ? result.name.id + ": " + result.words() : "",
+              .word = outcome_word(result),
+              .lower = whole.lower,
+              .upper = whole.upper,
+              .unit = answer.unit};
+  const double diagonal = answer.a_to_b.diagonal_a;
+  const bool has_ratio = !answer.max && std::isfinite(whole.upper) && diagonal > 0;
+  if (has_ratio) one.ratio = divide_up(whole.upper, diagonal);
+  return one;
 }
 
-void Totals::put_in_order(const Record& record) {
-  Rank rank = rank_of(record);
-  if (top_.size() == kTop && !is_worse(rank, top_.back().rank)) return;
-  const auto place = std::find_if(top_.begin(), top_.end(),
-                                  [&](const Place& other) { return is_worse(rank, other.rank); });
-  top_.insert(place, {std::move(rank), in_a_row(record)});
+void Totals::add(const Counted& one) {
+  worst_ = worse(worst_, one.code);
+  if (!one.has_answer()) {
+    unpaired_ += one.is_unpaired ? 1 : 0;
+    if (++failed_ <= kTop) failures_.push_back(one.failure);
+    return;
+  }
+  has_metrics_ = has_metrics_ || one.has_metrics;
+  const Outcome outcome = one.rank.outcome;
+  ++(outcome == Outcome::kBeyond   ? beyond_
+     : outcome == Outcome::kOpen   ? open_
+     : outcome == Outcome::kWithin ? within_
+                                   : closed_);
+  put_in_order(one);
+  if (one.ratio) ratios_.push_back(*one.ratio);
+}
+
+void Totals::put_in_order(const Counted& one) {
+  if (top_.size() == kTop && !is_worse(one.rank, top_.back().rank)) return;
+  const auto place = std::find_if(
+      top_.begin(), top_.end(), [&](const Place& other) { return is_worse(one.rank, other.rank); });
+  top_.insert(place, {one.rank, in_a_row(one)});
   if (top_.size() > kTop) top_.pop_back();
 }
 
-void Totals::add_kept(const Record& record) {
+void Totals::add_kept(const Counted& one) {
   ++kept_;
-  add(record);
+  add(one);
 }
 
 std::string Totals::in_words(const Run& run) const {

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "host/answer/rank.h"
-#include "host/answer/record.h"
+#include "host/answer/result.h"
 #include "vkhausdorff/stream.h"
 
 namespace vkh {
@@ -14,11 +15,27 @@ namespace vkh {
 /// Writes a percentage such as "2.64 %", rounded up.
 std::string percent_up(double ratio);
 
+/// What totals take of a result.
+struct Counted {
+  Rank rank;
+  ExitCode code = kExitClosed;
+  bool is_unpaired = false, has_metrics = false;
+  std::string failure;  ///< why there is no answer
+  const char* word = "";
+  double lower = 0, upper = 0;
+  std::string unit;
+  std::optional<double> ratio = {};  ///< upper end over diag(A), if there is no limit
+
+  bool has_answer() const { return rank.outcome != Outcome::kNoAnswer; }
+};
+Counted counted(const Result& result);
+
 class Totals {
  public:
-  void add(const Record& record);
-  /// Adds a record of an earlier run, which this run need not do again.
-  void add_kept(const Record& record);
+  void add(const Result& result) { add(counted(result)); }
+  void add(const Counted& one);
+  /// Adds a result of an earlier run, which this run need not do again.
+  void add_kept(const Counted& one);
 
   size_t pairs() const { return closed_ + within_ + beyond_ + open_ + failed_; }
   size_t failed() const { return failed_; }
@@ -48,14 +65,14 @@ class Totals {
     Rank rank;
     std::string text;
   };
-  void put_in_order(const Record& record);
+  void put_in_order(const Counted& one);
   void print_worst(std::ostream& out) const;
   void print_failures(std::ostream& out) const;
   void print_percentiles(std::ostream& out) const;
 
   ExitCode worst_ = kExitClosed;
   size_t closed_ = 0, within_ = 0, beyond_ = 0, open_ = 0, failed_ = 0, kept_ = 0;
-  bool has_metrics_ = false;           // some record has metrics
+  bool has_metrics_ = false;           // some result has metrics
   size_t unpaired_ = 0;                // failures of files without a partner
   std::vector<Place> top_;             // the worst answers, in order
   std::vector<double> ratios_;         // upper / diag(A), without a limit

@@ -13,6 +13,7 @@
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
 #include "host/python/interpreter.h"
+#include "host/python/python_tree.h"
 #include "host/python/question.h"
 #include "host/python/result.h"
 #include "host/python/session.h"
@@ -242,13 +243,6 @@ Polygons polygons_from(const py::tuple& state) {
 
 const ReadMesh& mesh_in(const py::object& self) { return *made<FileMesh>(self, "Mesh").mesh; }
 
-py::dict file_counts_of(const MeshCounts& c) {
-  using py::literals::operator""_a;
-  return py::dict("vertices"_a = c.vertices, "faces"_a = c.faces, "unreferenced"_a = c.unreferenced,
-                  "degenerate"_a = c.degenerate, "duplicate"_a = c.duplicate,
-                  "polygons"_a = c.polygons);
-}
-
 py::object path_in(const Mesh& mesh) {
   return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefaultAndSize(
       mesh.name.data(), static_cast<py::ssize_t>(mesh.name.size())));
@@ -381,7 +375,7 @@ void define_mesh(py::module_& m) {
                              "no vertex is farther from its exact place: what transforms of a "
                              "scene round.\nIntervals are wider by it")
       .def_property_readonly("counts",
-                             of_mesh([](const Mesh& mesh) { return file_counts_of(mesh.counts); }),
+                             of_mesh([](const Mesh& mesh) { return counts_dict(mesh.counts); }),
                              "what was counted: vertices, faces, unreferenced, degenerate, "
                              "duplicate, polygons")
       .def_property_readonly("are_points",

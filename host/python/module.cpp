@@ -8,6 +8,7 @@
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
 #include "host/python/many.h"
+#include "host/python/python_tree.h"
 #include "host/python/solver.h"
 #include "vkhausdorff/device.h"
 
@@ -70,7 +71,6 @@ void define_distance(py::module_& m) {
 }
 
 py::list devices() {
-  using py::literals::operator""_a;
   const Call call;
   std::vector<DeviceDescription> all;
   {
@@ -78,11 +78,12 @@ py::list devices() {
     all = list_devices();
   }
   py::list devices;
-  for (const DeviceDescription& d : all)
-    devices.append(py::dict(
-        "index"_a = d.index, "name"_a = d.name, "type"_a = d.type, "driver"_a = d.driver,
-        "api_version"_a = d.api_version, "memory_bytes"_a = d.memory_bytes, "usable"_a = d.usable,
-        "reason"_a = d.reason.empty() ? py::object(py::none()) : py::object(py::str(d.reason))));
+  for (const DeviceDescription& d : all) {
+    py::dict device = device_dict(d);
+    device["usable"] = d.usable;
+    device["reason"] = d.reason.empty() ? py::object(py::none()) : py::object(py::str(d.reason));
+    devices.append(device);
+  }
   return devices;
 }
 
@@ -156,11 +157,8 @@ void define_closest(py::module_& m) {
 }
 
 py::dict info_of(const py::object& self) {
-  using py::literals::operator""_a;
   const Call call;
-  const DeviceDescription d = made<PythonDevice>(self, "Device").session()->description();
-  return py::dict("index"_a = d.index, "name"_a = d.name, "type"_a = d.type, "driver"_a = d.driver,
-                  "api_version"_a = d.api_version);
+  return device_dict(made<PythonDevice>(self, "Device").session()->description());
 }
 
 void define_device(py::module_& m) {
@@ -171,9 +169,10 @@ void define_device(py::module_& m) {
       "After a DeviceError that says that it was lost, the next call opens it anew, and each\n"
       "Solver prepares its mesh again.")
       .def(py::init<const py::args&, const py::kwargs&>(), "__init__(self, device='')\n--\n\n")
-      .def_property_readonly("info", info_of,
-                             "a dict of index, name, type, driver and api_version, as devices() "
-                             "has them")
+      .def_property_readonly(
+          "info", info_of,
+          "a dict of index, name, type, driver, api_version and memory_bytes, as "
+          "devices() has them")
       .def(
           "close", [](const py::object& self) { made<PythonDevice>(self, "Device").close(); },
           "close(self)\n--\n\n"

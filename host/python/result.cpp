@@ -186,6 +186,10 @@ void define_surveys(py::class_<Result>& result) {
           "mean", of_survey("mean"),
           "with statistics: the Interval of the mean distance over A's area; else None")
       .def_property_readonly("rms", of_survey("rms"), "likewise of the root mean square")
+      .def_property_readonly("figures", of_survey("figures"),
+                             "with statistics or signed: {name: Interval} of all figures of A, "
+                             "such as 'mean', 'p95',\n"
+                             "'within_0.5', 'over' and 'signed_mean'; else None")
       .def_property_readonly(
           "percentiles", of_survey("percentiles"),
           "with statistics: {share: Interval} of the least distance that so much of A's area is\n"

@@ -1,5 +1,7 @@
 #include "host/python/solver.h"
 
+#include <pybind11/stl.h>
+
 #include <chrono>
 #include <functional>
 #include <map>

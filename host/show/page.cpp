@@ -102,8 +102,8 @@ class PageWriter {
     Json view = head_view(text_, contents_.title);
     view["sides"] = Json::array();
     for (const auto& side : sides_) {
-      view["sides"].push_back(side_view(
-          text_, {side->drawn, *side->scale, side->counts, side->places, side->drawn.statistics}));
+      view["sides"].push_back(
+          side_view(text_, {side->drawn, *side->scale, side->counts, side->places}));
       add_picture(side->given, view["sides"].back());
     }
     view["record"] = record_view(text_);
@@ -174,7 +174,8 @@ class PageWriter {
     if (const Statistics* statistics = sides_[i]->drawn.statistics) {
       side["curve"] = curve_json(statistics->curve);
       for (const AreaWithin& band : statistics->bands) {
-        if (is_limit(answer_, band)) side["atLimit"] = {band.share.lower, band.share.upper};
+        if (is_limit(answer_, band.distance))
+          side["atLimit"] = {band.share.lower, band.share.upper};
       }
     }
     if (i >= meshes.packed.size()) return side;

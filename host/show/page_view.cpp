@@ -42,10 +42,6 @@ Json length_row(const Answer& answer, const std::string& name, const Enclosure& 
   return row;
 }
 
-double asked_share(const Answer& answer, const AreaWithin& band) {
-  return is_limit(answer, band) && answer.max->area ? *answer.max->area : -1;
-}
-
 // Two decimals, or as many as are between both ends.
 std::string estimated_percent(const Enclosure& share) {
   const double percent = 100 * *share.estimate;
@@ -54,52 +50,57 @@ std::string estimated_percent(const Enclosure& share) {
          " %";
 }
 
-Json band_row(const Answer& answer, const AreaWithin& band, bool are_points) {
-  Json row =
-      named(std::string(are_points ? "points" : "area") + " within " + band_text(answer, band),
-            share_text(band.share, asked_share(answer, band)));
-  row["is_limit"] = is_limit(answer, band);
-  const bool is_range = band.share.upper - band.share.lower >= 2e-4;
-  row["estimate"] = is_range && band.share.estimate ? estimated_percent(band.share) : "";
+// A share is told of all `asked`, where a limit is of a share.
+Json share_row(const std::string& name, const Enclosure& share, double asked) {
+  Json row = named(name, share_text(share, asked));
+  const bool is_range = share.upper - share.lower >= 2e-4;
+  row["estimate"] = is_range && share.estimate ? estimated_percent(share) : "";
   return row;
 }
 
-std::string percentile_name(const Percentile& p, bool are_points) {
-  return shortest_decimal(100 * p.share) +
-         (are_points ? " % of the points are within" : " % of the area is within");
+Json band_row(const Answer& answer, const AnswerFigure& figure) {
+  const bool is_of_limit = is_limit(answer, figure.at);
+  Json row = share_row(figure.title + " " + band_text(answer, figure.at), figure.value,
+                       is_of_limit && answer.max->area ? *answer.max->area : -1);
+  row["is_limit"] = is_of_limit;
+  return row;
 }
 
 // Says how much --max-distance leaves out of the rows below it.
-Json left_out_row(const Answer& answer, const Statistics& s) {
-  const Enclosure rest{1 - s.kept->upper, 1 - s.kept->lower};
-  return named("left out, farther than " + length_text(answer, {s.max_distance, s.max_distance}),
-               share_text(rest) + (s.points > 0 ? " of the points" : " of the area"));
+Json left_out_row(const Answer& answer, const AnswerFigure& kept, const char* of) {
+  const Enclosure rest{1 - kept.value.upper, 1 - kept.value.lower};
+  return named("left out, farther than " + length_text(answer, {kept.at, kept.at}),
+               share_text(rest) + " of the " + of);
 }
 
-void add_side_rows(const Answer& answer, const SignedFigures& sides, Json& rows) {
-  rows.push_back(named("farthest outward", length_text(answer, sides.over)));
-  rows.push_back(named("farthest inward", length_text(answer, sides.under)));
-  if (sides.mean && sides.mean->lower * sides.mean->upper > 0) {
-    const bool is_out = sides.mean->lower > 0;
-    const Enclosure size = is_out ? *sides.mean : Enclosure{-sides.mean->upper, -sides.mean->lower};
-    rows.push_back(named(is_out ? "mean, outward" : "mean, inward", length_text(answer, size)));
+// A signed mean is told where its sign is known.
+void add_signed_mean(const Answer& answer, const Enclosure& mean, Json& rows) {
+  if (!(mean.lower * mean.upper > 0)) return;
+  const bool is_out = mean.lower > 0;
+  const Enclosure size = is_out ? mean : Enclosure{-mean.upper, -mean.lower};
+  rows.push_back(named(is_out ? "mean, outward" : "mean, inward", length_text(answer, size)));
+}
+
+void add_row(const Answer& answer, const AnswerFigure& figure, bool are_points, Json& rows) {
+  switch (figure.kind) {
+    case FigureKind::kSignedMean:
+      return add_signed_mean(answer, figure.value, rows);
+    case FigureKind::kKept:
+      return rows.push_back(left_out_row(answer, figure, are_points ? "points" : "area"));
+    case FigureKind::kBand:
+      return rows.push_back(band_row(answer, figure));
+    default:
+      if (figure.title.empty()) return;
+      rows.push_back(figure.power == 0 ? share_row(figure.title, figure.value, -1)
+                                       : length_row(answer, figure.title, figure.value));
   }
 }
 
-Json figure_rows(const Answer& answer, bool back, const Statistics* statistics) {
-  const Report& r = back ? *answer.b_to_a : answer.a_to_b;
+Json figure_rows(const Answer& answer, bool back, bool are_points) {
   Json rows = Json::array();
-  rows.push_back(named("largest deviation", length_text(answer, deviation_of(answer, r))));
-  if (const SignedFigures* sides = sides_of(answer, back)) add_side_rows(answer, *sides, rows);
-  if (!statistics) return rows;
-  const bool are_points = statistics->points > 0;
-  if (statistics->kept) rows.push_back(left_out_row(answer, *statistics));
-  rows.push_back(length_row(answer, "mean deviation", statistics->mean));
-  rows.push_back(length_row(answer, "root mean square", statistics->rms));
-  for (const Percentile& p : statistics->percentiles)
-    rows.push_back(length_row(answer, percentile_name(p, are_points), p.distance));
-  for (const AreaWithin& band : statistics->bands)
-    rows.push_back(band_row(answer, band, are_points));
+  for (const AnswerFigure& figure : figures_of(answer)) {
+    if (figure.of_b == back) add_row(answer, figure, are_points, rows);
+  }
   return rows;
 }
 
@@ -241,7 +242,7 @@ Json side_view(const PageText& page, const SideText& side) {
                {"to", back ? "A" : "B"},
                {"places", Json::array()},
                {"has_no_places", side.places.empty()},
-               {"figures", figure_rows(page.answer, back, side.statistics)},
+               {"figures", figure_rows(page.answer, back, side.drawn.mesh.are_points)},
                {"legend", legend_view(side)},
                {"is_finer_with_effort", has_used_effort(page.answer, back)}};
   size_t number = 0;

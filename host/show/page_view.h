@@ -30,7 +30,6 @@ struct SideText {
   const drawing::MapScale& scale;
   const drawing::MapCounts& counts;
   const std::vector<MapPlace>& places;
-  const Statistics* statistics;
 };
 
 /// One direction: its colours, its worst places and its figures.

@@ -281,29 +281,15 @@ std::string limit_text(const Answer& answer) {
          typed_text(answer, max.sides->under) + " inward";
 }
 
-bool is_limit(const Answer& answer, const AreaWithin& band) {
-  return answer.max && band.distance >= answer.max->limit.within &&
-         band.distance <= answer.max->limit.beyond;
+bool is_limit(const Answer& answer, double distance) {
+  return answer.max && distance >= answer.max->limit.within && distance <= answer.max->limit.beyond;
 }
 
-std::string band_text(const Answer& answer, const AreaWithin& band) {
+std::string band_text(const Answer& answer, double distance) {
   constexpr size_t kMostLetters = 12;  // more are of a share of a diagonal
-  if (is_limit(answer, band) && !answer.max->sides) return limit_text(answer);
-  const std::string text = shortest_decimal(band.distance);
-  return unit_after(answer, text.size() <= kMostLetters ? text : nearest(band.distance, 6));
-}
-
-Enclosure deviation_of(const Answer& answer, const Report& report) {
-  const bool is_failed = answer.max && !answer.max->area && report.lower > answer.max->limit.beyond;
-  const bool is_sought = !is_failed || is_farthest_known(report.lower, report.upper);
-  return {report.lower, is_sought ? report.upper : std::numeric_limits<double>::infinity()};
-}
-
-Enclosure deviation_of(const Answer& answer) {
-  const Enclosure there = deviation_of(answer, answer.a_to_b);
-  if (!answer.b_to_a) return there;
-  const Enclosure back = deviation_of(answer, *answer.b_to_a);
-  return {std::max(there.lower, back.lower), std::max(there.upper, back.upper)};
+  if (is_limit(answer, distance) && !answer.max->sides) return limit_text(answer);
+  const std::string text = shortest_decimal(distance);
+  return unit_after(answer, text.size() <= kMostLetters ? text : nearest(distance, 6));
 }
 
 Headline headline_of(const Answer& answer) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/answer/figures.h"
 #include "vkhausdorff/answer.h"
 
 namespace vkh {
@@ -32,15 +33,10 @@ std::string point_text(const glm::dvec3& point, double size);
 /// The limit as it was asked: "0.1 mm", "0.1 % of A's diagonal".
 std::string limit_text(const Answer& answer);
 
-/// Whether a band of the statistics is the limit's own.
-bool is_limit(const Answer& answer, const AreaWithin& band);
+/// Whether a share within that distance is the limit's own.
+bool is_limit(const Answer& answer, double distance);
 /// A band's distance with its unit: "0.3 mm"; of the limit's, the limit as it was asked.
-std::string band_text(const Answer& answer, const AreaWithin& band);
-
-/// The largest deviation of a direction, or of both. The upper end of a FAIL that was not sought is
-/// infinite.
-Enclosure deviation_of(const Answer& answer, const Report& report);
-Enclosure deviation_of(const Answer& answer);
+std::string band_text(const Answer& answer, double distance);
 
 /// The verdict and the text beside it.
 struct Headline {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "host/answer/figures.h"
 #include "host/base/decimal.h"
 #include "host/show/map_places.h"
 #include "host/show/page_words.h"
@@ -22,48 +23,23 @@ std::string csv_end(double value, Rounding rounding) {
   return std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : "";
 }
 
-class FiguresTable {
- public:
-  FiguresTable(const Answer& answer, bool back, std::string& out)
-      : answer_(answer), from_(back ? "B" : "A"), out_(out) {}
-
-  void add(const std::string& figure, const Enclosure& e, const std::string& unit) {
-    out_ +=
-        row_text({from_, figure, e.estimate ? decimal_between(*e.estimate, e.lower, e.upper) : "",
-                  csv_end(e.lower, Rounding::kDown), csv_end(e.upper, Rounding::kUp), unit});
-  }
-  void add_length(const std::string& figure, const Enclosure& e) { add(figure, e, answer_.unit); }
-
-  void add_sides(const SignedFigures& sides) {
-    add_length("outward", sides.over);
-    add_length("inward", sides.under);
-    if (sides.mean) add_length("signed mean", *sides.mean);
-  }
-
-  void add_statistics(const Statistics& s) {
-    add_length("mean", s.mean);
-    add_length("rms", s.rms);
-    for (const Percentile& p : s.percentiles)
-      add_length("p" + shortest_decimal(100 * p.share), p.distance);
-    for (const AreaWithin& band : s.bands)
-      add("within " + band_text(answer_, band), band.share, "1");
-  }
-
- private:
-  const Answer& answer_;
-  std::string from_;
-  std::string& out_;
-};
+std::string figure_row(const Answer& answer, const AnswerFigure& figure) {
+  const bool is_band = figure.kind == FigureKind::kBand;
+  const Enclosure& e = figure.value;
+  return row_text({figure.of_b ? "B" : "A",
+                   is_band ? "within " + band_text(answer, figure.at) : figure.name,
+                   e.estimate ? decimal_between(*e.estimate, e.lower, e.upper) : "",
+                   csv_end(e.lower, Rounding::kDown), csv_end(e.upper, Rounding::kUp),
+                   figure.power == 0 ? "1" : answer.unit});
+}
 
 }  // namespace
 
 std::string figures_csv(const Measured& measured) {
+  (void)sides_of(measured);  // throws if nothing was surveyed
   std::string out = row_text({"from", "figure", "estimate", "lower", "upper", "unit"});
-  for (const Side& side : sides_of(measured)) {
-    FiguresTable table(measured.answer, side.back, out);
-    table.add_length("largest", deviation_of(measured.answer, side.report));
-    if (side.survey.sides) table.add_sides(*side.survey.sides);
-    if (side.survey.statistics) table.add_statistics(*side.survey.statistics);
+  for (const AnswerFigure& figure : figures_of(measured.answer)) {
+    if (figure.in_report) out += figure_row(measured.answer, figure);
   }
   return out;
 }

@@ -12,7 +12,7 @@
 
 #include "host/answer/csv.h"
 #include "host/answer/json_object.h"
-#include "host/answer/record.h"
+#include "host/answer/result.h"
 #include "host/answer/tables.h"
 #include "host/base/byte_order_mark.h"
 #include "tests/support/files.h"
@@ -248,69 +248,34 @@ TEST_CASE("a result's line is read back as what it says") {
   answer.inputs[0].sha256 = "aa";
   answer.inputs[1].path = "b\n.obj";
   answer.inputs[1].sha256 = "bb";
+  for (Input& input : answer.inputs) input.is_read = true;
   answer.a_to_b.lower = 0x1.3333333333333p-3;
   answer.a_to_b.upper = 0x1.3333333333335p-3;
   answer.a_to_b.diagonal_a = 2;
   answer.unit = "mm";
-  const std::string line = to_record({"an id, \"quoted\"", "key"}, answer);
+  const std::string line = to_line(result_of({"an id, \"quoted\"", "key"}, answer));
   CHECK(line.find('\n') == std::string::npos);
-  const Record record = read_record(line);
-  CHECK(record.name.id == "an id, \"quoted\"");
-  CHECK(record.lower == answer.a_to_b.lower);
-  CHECK(record.upper == answer.a_to_b.upper);
-  CHECK(record.inputs[1].path == "b\n.obj");
-  CHECK(record.is_final());
+  const Result result = read_result(line);
+  CHECK(result.name.id == "an id, \"quoted\"");
+  CHECK(result.answer.a_to_b.lower == answer.a_to_b.lower);
+  CHECK(result.answer.a_to_b.upper == answer.a_to_b.upper);
+  CHECK(result.answer.inputs[1].path == "b\n.obj");
+  CHECK(result.is_final());
+  CHECK(to_line(result) == line);
   const std::string common = without_run(line);
-  CHECK(read_record(common).upper == record.upper);
+  CHECK(read_result(common).answer.a_to_b.upper == answer.a_to_b.upper);
   CHECK(common.find("\"started\"") == std::string::npos);
   CHECK(without_run(common) == common);
-  const Record failed = read_record(to_record(
-      {"x", ""}, Failure{.code = 4, .message = "a: bad", .file = "a", .place = ""}, Answer{}));
+  const Result failed = read_result(to_line(result_of(
+      {"x", ""}, Failure{.code = 4, .message = "a: bad", .file = "a", .place = ""}, Answer{})));
   CHECK(failed.code == kExitBadInput);
-  CHECK(failed.words == "a: bad");
+  CHECK(failed.words() == "a: bad");
   CHECK(!failed.is_final());
   for (const char* text : {"", "{", "[]", "{}", R"({"schema":"vkhausdorff.pair/2"})"})
-    CHECK_THROWS_AS(read_record(text), InputError);
+    CHECK_THROWS_AS(read_result(text), InputError);
 }
 
-void check_same(const Record& x, const Record& y) {
-  CHECK(x.limit.within == y.limit.within);
-  CHECK(x.limit.beyond == y.limit.beyond);
-  CHECK(x.error_file == y.error_file);
-  CHECK(x.name.id == y.name.id);
-  CHECK(x.name.key == y.name.key);
-  CHECK(x.code == y.code);
-  CHECK(x.status == y.status);
-  CHECK(x.verdict == y.verdict);
-  CHECK(x.words == y.words);
-  CHECK(x.unit == y.unit);
-  CHECK(x.host == y.host);
-  CHECK(x.started == y.started);
-  CHECK(x.notes == y.notes);
-  const auto numbers = [](const Record& r) {
-    return std::vector<double>{r.lower,
-                               r.upper,
-                               r.directions[0].lower,
-                               r.directions[0].upper,
-                               r.directions[1].lower,
-                               r.directions[1].upper,
-                               r.gap,
-                               r.diagonal,
-                               r.total_ms,
-                               r.gpu_ms};
-  };
-  CHECK(numbers(x) == numbers(y));
-  for (size_t i = 0; i < 2; ++i) {
-    CHECK(x.inputs[i].path == y.inputs[i].path);
-    CHECK(x.inputs[i].sha256 == y.inputs[i].sha256);
-    CHECK(x.inputs[i].faces == y.inputs[i].faces);
-    CHECK(x.inputs[i].names_files == y.inputs[i].names_files);
-    CHECK(x.inputs[i].notes == y.inputs[i].notes);
-  }
-  CHECK(x.is_final() == y.is_final());
-}
-
-TEST_CASE("a record of an answer is that of its line") {
+TEST_CASE("every kind of result line is read back byte for byte") {
   Answer answer;
   answer.inputs[0] = {.path = "a.obj",
                       .is_read = true,
@@ -327,9 +292,21 @@ TEST_CASE("a record of an answer is that of its line") {
   answer.host = "here";
   answer.started = "now";
   answer.waits.total = 0.7;
-  const RecordName name{"an id", "key"};
+  const ResultName name{"an id", "key"};
+  const auto reread = [](const Result& written) {
+    const std::string line = to_line(written);
+    const Result result = read_result(line);
+    CHECK(to_line(result) == line);
+    CHECK(result.lacking.empty());
+    CHECK(result.words() == written.words());
+    CHECK(result.is_final() == written.is_final());
+    return result;
+  };
   const auto check = [&] {
-    check_same(record_of(name, answer), read_record(to_record(name, answer)));
+    const Answer read = reread(result_of(name, answer)).answer;
+    CHECK(notes_of(read) == notes_of(answer));
+    CHECK(read.a_to_b.diagonal_a == answer.a_to_b.diagonal_a);
+    CHECK(read.inputs[0].notes == answer.inputs[0].notes);
   };
   check();
   answer.b_to_a = answer.a_to_b;
@@ -340,7 +317,9 @@ TEST_CASE("a record of an answer is that of its line") {
                      .limit = {.within = 0.5, .beyond = 0.5}};
   check();  // and the note that it is one way
   const Failure failure{.code = 4, .message = "a.obj: bad", .file = "a.obj", .place = ""};
-  check_same(record_of(name, failure, answer), read_record(to_record(name, failure, answer)));
+  const Result failed = reread(result_of(name, failure, answer));
+  CHECK(failed.failure->file == "a.obj");
+  CHECK(failed.answer.inputs[0].sha256 == "aa");
 }
 
 TEST_CASE("a PASS proposes --worst where there is such an option") {
@@ -364,13 +343,13 @@ TEST_CASE("a line that was changed is refused") {
   answer.a_to_b.upper = 0.25;
   answer.b_to_a = answer.a_to_b;
   answer.inputs[0].is_read = true;
-  const std::string line = to_record({"x", "key"}, answer);
-  CHECK(read_record(line).directions[1].upper == 0.25);
+  const std::string line = to_line(result_of({"x", "key"}, answer));
+  CHECK(read_result(line).answer.b_to_a->upper == 0.25);
   const auto refusal = [&](const std::string& pointer, const Json& value) {
     Json json = Json::parse(line);
     json[Json::json_pointer(pointer)] = value;
     try {
-      read_record(json.dump());
+      read_result(json.dump());
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -388,6 +367,33 @@ TEST_CASE("a line that was changed is refused") {
             .find("lower end is above") != std::string::npos);
   CHECK(refusal("/inputs/0/faces", 1.5).find("faces 1.5 is no whole number") == 0);
   CHECK(refusal("/inputs/0/faces", -1).find("faces -1") == 0);
+  CHECK(refusal("/status", "time") == "a status that is not that of its directions");
+}
+
+TEST_CASE("a line that lacks members is read, and is to be done again") {
+  Answer answer;
+  answer.a_to_b.upper = 1;
+  for (Input& input : answer.inputs) input.sha256 = "aa";
+  const Json whole = Json::parse(to_line(result_of({"x", "key"}, answer)));
+  CHECK(read_result(whole.dump()).is_final());
+  for (const char* pointer :
+       {"/inputs/0/files", "/inputs/1/delta", "/directions/0/counts", "/options/preset",
+        "/tolerance", "/run/host", "/directions/0/known_lower"}) {
+    Json less = whole;
+    const Json::json_pointer at(pointer);
+    less[at.parent_pointer()].erase(at.back());
+    const Result result = read_result(less.dump());
+    CHECK_FALSE(result.is_final());
+    CHECK(result.lacking == std::vector<std::string>{at.back()});
+    CHECK(result.answer.a_to_b.upper == 1);
+  }
+  for (const char* pointer : {"/interval", "/directions", "/directions/0/interval",
+                              "/directions/0/interval/upper", "/directions/0/status"}) {
+    Json less = whole;
+    const Json::json_pointer at(pointer);
+    less[at.parent_pointer()].erase(at.back());
+    CHECK_THROWS_AS(read_result(less.dump()), InputError);
+  }
 }
 
 TEST_CASE("codes: the worst of a batch") {

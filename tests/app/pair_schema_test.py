@@ -59,6 +59,13 @@ def schema_of(name):
     return json.loads((SOURCE / f"docs/schema/{name}.schema.json").read_text())
 
 
+def pair_schema():
+    """The schema of lines with that of answers, to which it refers, in it."""
+    schema = schema_of("pair")
+    schema["$defs"]["of an answer"] = schema_of("answer")
+    return schema
+
+
 class Batch(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -83,7 +90,7 @@ class Batch(unittest.TestCase):
 
     @unittest.skipIf(jsonschema is None, "no jsonschema here")
     def test_every_line_is_of_the_schema(self):
-        schema = schema_of("pair")
+        schema = pair_schema()
         jsonschema.Draft202012Validator.check_schema(schema)
         validator = jsonschema.Draft202012Validator(schema)
         for file, has_run in (("out.jsonl", True), ("late.jsonl", True), ("all.jsonl", False)):
@@ -99,16 +106,12 @@ class Batch(unittest.TestCase):
 
     def test_definitions_are_those_of_an_answer(self):
         ours, answers = schema_of("pair")["$defs"], schema_of("answer")["$defs"]
-        shared = {"interval", "unit", "status", "witness", "files", "input", "max", "face_limits", "tolerance", "options", "device",
-                  "note", "box", "boxes", "transform", "enclosure", "area_within", "statistics", "signed_enclosure", "sided_point",
-                  "signed", "survey", "sided_max", "metric", "metrics"}
         # A line has no times or waves of a direction, and names of its own in answers and failures.
-        self.assertEqual(set(ours) & set(answers), shared | {"direction", "answer", "failure"})
+        self.assertEqual(set(ours) & set(answers), {"survey", "signed", "direction", "answer", "failure"})
         for name in ("survey", "signed"):
             del answers[name]["properties"]["wall_ms"]
             answers[name]["required"].remove("wall_ms")
-        for name in shared:
-            self.assertEqual(ours[name], answers[name], name)
+            self.assertEqual(json.loads(json.dumps(ours[name]).replace("../answer/2", "")), answers[name], name)
         self.assertLess(set(ours["direction"]["properties"]), set(answers["direction"]["properties"]))
 
     def test_csv_is_read_by_another(self):

@@ -34,7 +34,7 @@ std::string line_of(const Said& said) {
   answer.b_to_a->lower = said.back_lower;
   answer.b_to_a->upper = said.back_upper;
   for (Input& input : answer.inputs) input.sha256 = std::string(64, 'a');
-  return to_record({"the id", said.key}, answer);
+  return to_line(result_of({"the id", said.key}, answer));
 }
 
 std::string without_files(const std::string& line) {
@@ -53,8 +53,9 @@ std::string merged(const std::vector<std::string>& lines) {
     return error.what();
   }
   std::string upper;
-  results.for_each(
-      [&](const Record& record, const std::string&) { upper += std::to_string(record.upper); });
+  results.for_each([&](const Result& result, const std::string&) {
+    upper += std::to_string(interval_of(result.answer).upper);
+  });
   return upper;
 }
 
@@ -107,23 +108,24 @@ struct Shown {
   const char* unit = "";
 };
 
-Record record_of(const Shown& shown) {
-  Record record;
-  record.name.id = shown.id;
-  record.code = shown.code;
+Result shown_result(const Shown& shown) {
+  Result result;
+  result.name.id = shown.id;
+  result.code = shown.code;
   const bool has_answer = shown.code <= kExitNotClosed && shown.code != kExitUsage;
-  record.status = has_answer ? "closed" : "";
-  record.verdict = has_answer && shown.limit > 0 ? "a verdict" : "";
-  record.lower = shown.lower;
-  record.upper = shown.upper;
-  record.limit = {shown.limit, shown.limit};
-  record.unit = shown.unit;
-  return record;
+  if (!has_answer)
+    result.failure = Failure{.code = shown.code, .message = {}, .file = {}, .place = {}};
+  Answer& answer = result.answer;
+  answer.a_to_b.lower = shown.lower;
+  answer.a_to_b.upper = shown.upper;
+  answer.unit = shown.unit;
+  if (shown.limit > 0) answer.max = Asked{.length = {}, .limit = {shown.limit, shown.limit}};
+  return result;
 }
 
 std::vector<std::string> ranked(const std::vector<Shown>& shown) {
   std::vector<Rank> ranks;
-  for (const Shown& one : shown) ranks.push_back(rank_of(record_of(one)));
+  for (const Shown& one : shown) ranks.push_back(rank_of(shown_result(one)));
   std::sort(ranks.begin(), ranks.end(), is_worse);
   std::vector<std::string> ids;
   for (const Rank& rank : ranks) ids.push_back(rank.id);
@@ -155,14 +157,14 @@ TEST_CASE("results are ranked by verdict, then by the lower end over the limit")
 }
 
 TEST_CASE("the share of a limit is rounded down") {
-  const Record third = record_of({"x", kExitBeyond, 1, 2, 3});
+  const Result third = shown_result({"x", kExitBeyond, 1, 2, 3});
   CHECK(share_of_limit(third) < 1.0 / 3);
   CHECK(share_of_limit(third) > 1.0 / 3 * (1 - 0x1p-51));
   CHECK(share_of_limit_text(third) == "0.333");
-  CHECK(share_of_limit_text(record_of({"x", kExitBeyond, 0.3, 1, 0.1})) == "2.99");
-  CHECK(share_of_limit_text(record_of({"x", kExitClosed, 0, 1, 1})) == "0");
-  CHECK(share_of_limit_text(record_of({"x", kExitClosed, 1, 1, 0})).empty());
-  CHECK(share_of_limit_text(record_of({"x", kExitBadInput, 0, 1, 1})).empty());
-  CHECK(share_of_limit(record_of({"x", kExitBeyond, 1e308, 1e308, 1e-300})) <
+  CHECK(share_of_limit_text(shown_result({"x", kExitBeyond, 0.3, 1, 0.1})) == "2.99");
+  CHECK(share_of_limit_text(shown_result({"x", kExitClosed, 0, 1, 1})) == "0");
+  CHECK(share_of_limit_text(shown_result({"x", kExitClosed, 1, 1, 0})).empty());
+  CHECK(share_of_limit_text(shown_result({"x", kExitBadInput, 0, 1, 1})).empty());
+  CHECK(share_of_limit(shown_result({"x", kExitBeyond, 1e308, 1e308, 1e-300})) <
         std::numeric_limits<double>::infinity());
 }

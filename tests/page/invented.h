@@ -116,7 +116,8 @@ struct Invented {
     field_b = invented_field(b, 0.003 * size);
     map_a = invented_map(a, 0.0039 * size);
     map_b = invented_map(b, 0.0029 * size);
-    statistics_a = invented_statistics(a, field_a);
+    answer.survey_a.emplace().statistics = invented_statistics(a, field_a);
+    answer.survey_a->ended = SurveyEnd::kMet;
     answer.command = "distance";
     answer.words = {"distance",
                     "parts/bracket as scanned.ply",
@@ -190,7 +191,8 @@ struct Invented {
     answer.inputs[1].path = std::string(400, 'x') + ".stl";
     for (int i = 0; i < 20; ++i)
       answer.notes.push_back(note_of(NoteCode::kMemory, std::string(600, 'n')));
-    for (int i = 0; i < 40; ++i) statistics_a.bands.push_back({0.01 * i, {0.1, 0.9}});
+    for (int i = 0; i < 40; ++i)
+      answer.survey_a->statistics->bands.push_back({0.01 * i, {0.1, 0.9}});
     answer.host = odd;
     answer.a_to_b.device.name = odd;
   }
@@ -204,7 +206,8 @@ struct Invented {
     answer.a_to_b.upper = upper;
     answer.a_to_b.lower = 0;
     answer.a_to_b.has_witness = false;
-    has_statistics = has_maps = false;
+    answer.survey_a.reset();
+    has_maps = false;
   }
 
   /// Sides for A: over B, under it, and none, in turn.
@@ -227,20 +230,22 @@ struct Invented {
         .mesh = back ? b : a, .field = back ? field_b : field_a, .interval = {r.lower, r.upper}};
     out.unit = answer.unit;
     out.back = back;
-    if (!back && has_statistics) out.statistics = &statistics_a;
+    if (!back && answer.survey_a && answer.survey_a->statistics)
+      out.statistics = &*answer.survey_a->statistics;
     if (answer.max) out.limit = answer.max->limit;
     if (has_maps) out.map = back ? &map_b : &map_a;
     if (r.has_witness) out.witness = Witness{r.witness_a, r.witness_b, deviation_of(answer, r)};
     return out;
   }
 
+  const Statistics& statistics_a() const { return *answer.survey_a->statistics; }
+
   Mesh a, b;
   Field field_a, field_b;
-  Statistics statistics_a;
   Answer answer;
   CellMap map_a, map_b;
   std::string picture;
-  bool has_statistics = true, has_maps = true;
+  bool has_maps = true;
 };
 
 }  // namespace vkh::test

@@ -146,7 +146,7 @@ TEST_CASE("a figure reads the same wherever it stands on a page") {
   CHECK(count_of(page, "<th scope=\"row\">largest deviation</th><td>" + largest + "</td>") == 1);
   CHECK(count_of(page, "<span class=\"length\">" + largest + "</span>") >= 1);
   // The share within the limit: the survey's, in the table and in what the viewer counts by.
-  const vkh::AreaWithin& band = pair.statistics_a.bands[1];
+  const vkh::AreaWithin& band = pair.statistics_a().bands[1];
   pair.answer.max->limit = {band.distance, band.distance};
   const std::string again = vkh::to_page(pair.contents());
   CHECK(count_of(again, "<td>" + vkh::share_text(band.share) + "</td>") == 1);
@@ -222,8 +222,8 @@ TEST_CASE("a band is named by the number that was typed") {
   vkh::Answer answer;
   answer.unit = "mm";
   for (const double distance : {0.1, 0.3, 0.7, 1e-7, 12345.678})
-    CHECK(std::stod(vkh::band_text(answer, {distance, {}})) == distance);
-  CHECK(vkh::band_text(answer, {0.3, {}}) == "0.3 mm");
+    CHECK(std::stod(vkh::band_text(answer, distance)) == distance);
+  CHECK(vkh::band_text(answer, 0.3) == "0.3 mm");
 }
 
 TEST_CASE("shares are rounded outward, and 0 and 100 percent are exact") {
@@ -308,7 +308,7 @@ TEST_CASE("one stray triangle does not set the colours of all others") {
   pair.field_a.upper[0] *= 1000;
   pair.answer.a_to_b.upper = pair.field_a.upper[0];
   const json data = script(vkh::to_page(pair.contents()), "data");
-  CHECK(data["bar"] == pair.statistics_a.percentiles.back().distance.upper);
+  CHECK(data["bar"] == pair.statistics_a().percentiles.back().distance.upper);
   CHECK(data["top"] == pair.field_a.upper[0]);
   pair.ask(0.5);
   CHECK(script(vkh::to_page(pair.contents()), "data")["bar"] ==

@@ -39,20 +39,18 @@ void write_page(const std::string& path, const Invented& pair, const vkh::PageLi
   std::printf("%s: %zu bytes, %.2f s\n", path.c_str(), page.size(), took.count());
 }
 
-vkh::IndexRow index_row(const std::string& id, vkh::ExitCode code, const char* verdict,
-                        vkh::Enclosure deviation) {
-  vkh::Record record;
-  record.name.id = id;
-  record.code = code;
-  record.verdict = verdict;
-  record.status = "limit";
-  record.lower = deviation.lower;
-  record.upper = deviation.upper;
-  record.diagonal = 100;
-  record.limit = {0.1, 0.1};
-  record.unit = "mm";
-  record.words = "UNDECIDED  the limit 0.1 mm lies in [0.09, 0.2] mm; ask for more --time";
-  return {.record = record, .pictures = {}, .report = id + ".html"};
+vkh::IndexRow index_row(const std::string& id, vkh::ExitCode code, vkh::Enclosure deviation) {
+  vkh::Result result;
+  result.name.id = id;
+  result.code = code;
+  vkh::Answer& answer = result.answer;
+  answer.a_to_b.lower = deviation.lower;
+  answer.a_to_b.upper = deviation.upper;
+  answer.a_to_b.diagonal_a = 100;
+  answer.max = vkh::Asked{.length = {}, .limit = {0.1, 0.1}};
+  answer.unit = "mm";
+  answer.first_line = "UNDECIDED  the limit 0.1 mm lies in [0.09, 0.2] mm; ask for more --time";
+  return {.result = result, .pictures = {}, .report = id + ".html"};
 }
 
 // A batch of four pairs with names as long as they come, in an order that is not the right one.
@@ -62,10 +60,10 @@ void write_batch_index(const std::string& path) {
   const std::string name(90, 'n');
   vkh::IndexContents contents{.rows = {}, .results = results, .look = look, .has_limit = true};
   contents.has_reports = true;
-  contents.rows = {index_row("good", vkh::kExitClosed, "pass", {0.03125, 0.09375}),
-                   index_row("open", vkh::kExitNotClosed, "undecided", {0.09, 0.2}),
-                   index_row("bad", vkh::kExitBeyond, "fail", {0.2, 900}),
-                   index_row(name, vkh::kExitBeyond, "fail", {0.3, 0.4})};
+  contents.rows = {index_row("good", vkh::kExitClosed, {0.03125, 0.09375}),
+                   index_row("open", vkh::kExitNotClosed, {0.09, 0.2}),
+                   index_row("bad", vkh::kExitBeyond, {0.2, 900}),
+                   index_row(name, vkh::kExitBeyond, {0.3, 0.4})};
   write(path, vkh::to_index(contents));
 }
 

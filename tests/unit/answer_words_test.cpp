@@ -8,7 +8,7 @@
 
 #include "host/answer/csv.h"
 #include "host/answer/json_object.h"
-#include "host/answer/record.h"
+#include "host/answer/result.h"
 #include "host/answer/steps.h"
 #include "host/answer/tables.h"
 #include "vkhausdorff/note.h"
@@ -154,10 +154,15 @@ TEST_CASE("a search that went on to the farthest point says so") {
 
 // The cells of one row, by the heading's names.
 std::string cell_of(const Answer& answer, const std::string& name) {
-  std::istringstream text(csv_heading({}) + csv_row(record_of({"x", "key"}, answer), {}));
+  std::istringstream text(csv_heading({}) + csv_row(result_of({"x", "key"}, answer), {}));
   CsvReader reader(text);
   const std::vector<std::string> names = *reader.next(), cells = *reader.next();
   return cells[static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+}
+
+/// The result line, written and read.
+Result reread(const Answer& answer) {
+  return read_result(to_line(result_of({"x", "key"}, answer)));
 }
 
 TEST_CASE("an upper end that was not sought is no figure of a table") {
@@ -166,13 +171,13 @@ TEST_CASE("an upper end that was not sought is no figure of a table") {
   CHECK(cell_of(failed, "upper").empty());
   CHECK(cell_of(failed, "gap").empty());
   CHECK(has(github_summary(failed), "| distance | `at least 0.25 mm` |"));
-  CHECK(read_record(to_record({"x", "key"}, failed)).upper == 117);
-  CHECK_FALSE(read_record(to_record({"x", "key"}, failed)).is_upper_sought());
+  CHECK(interval_of(reread(failed).answer).upper == 117);
+  CHECK_FALSE(reread(failed).is_upper_sought());
   for (const Answer& sought : {gate(0.05, 0.3), gate(0.2, 0.2001), by_area({0.1, 0.2})}) {
     CHECK_FALSE(cell_of(sought, "upper").empty());
     CHECK_FALSE(cell_of(sought, "gap").empty());
     CHECK(has(github_summary(sought), "| interval | `["));
-    CHECK(read_record(to_record({"x", "key"}, sought)).is_upper_sought());
+    CHECK(reread(sought).is_upper_sought());
   }
 }
 

@@ -294,11 +294,10 @@ TEST_CASE("a CSV's figures are between their ends") {
   Random random(6);
   const CsvColumns with{.metrics = true, .normals = true, .distances = 1};
   for (int i = 0; i < kCases / 10; ++i) {
-    Record record;
-    record.status = "closed";
-    record.metrics = random_metrics(random);
+    Result result;
+    result.answer.metrics = random_metrics(random);
     std::vector<std::string> cells;
-    const std::string text = csv_row(record, with);
+    const std::string text = csv_row(result, with);
     std::istringstream row(text.substr(0, text.size() - 1));
     for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
     // Behind the percentile and the distance, each figure has three columns.

@@ -163,10 +163,9 @@ std::string printable(const std::string& text);
 // junit_github.cpp defines this one.
 
 /// Picks the notes that build servers get too (is_for_servers): "size: ...", "A: polygons: ...".
-std::vector<std::string> server_notes(std::span<const Note> pair, std::span<const Note> a,
-                                      std::span<const Note> b);
+std::vector<std::string> server_notes(const Answer& answer);
 
-// json.cpp and answer_from_json.cpp define these.
+// json.cpp defines these.
 
 /// One line of JSON, without a newline at its end, of docs/schema/answer.schema.json.
 std::string to_json(const Answer& answer);

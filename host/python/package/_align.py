@@ -1,9 +1,9 @@
 """The result of align(), as Python shows it. vkhausdorff._core makes it."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from vkhausdorff._survey import Record
 
@@ -19,15 +19,16 @@ class Alignment(Record):
     where A's mirror image would lie far closer, the rms of all its samples there; otherwise None.
     """
 
-    matrix: Any
+    matrix: npt.NDArray[np.float64]
     rms: float
     share: float
     samples: int
     poor: bool
-    rival: Any
-    mirrored: Any
+    rival: float | None
+    mirrored: float | None
 
-    def __init__(self, matrix, rms, share, samples, poor, rival, mirrored=None):
+    def __init__(self, matrix: npt.ArrayLike, rms: float, share: float, samples: int, poor: bool, rival: float | None,
+                 mirrored: float | None = None) -> None:
         own = np.array(matrix, dtype=np.float64)
         own.setflags(write=False)
         for name, value in (("matrix", own), ("rms", rms), ("share", share), ("samples", samples), ("poor", poor),

@@ -1,9 +1,11 @@
 """The result of closest(), as Python shows it. vkhausdorff._core makes it."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from vkhausdorff._survey import Record
 
@@ -17,12 +19,12 @@ class Closest(Record):
     of the mesh's faces that they lie on. All are read-only. It unpacks as distances, points, faces; distances are upper.
     """
 
-    lower: Any
-    upper: Any
-    points: Any
-    faces: Any
+    lower: npt.NDArray[np.float64]
+    upper: npt.NDArray[np.float64]
+    points: npt.NDArray[np.float64]
+    faces: npt.NDArray[np.uint32]
 
-    def __init__(self, lower, upper, points, faces):
+    def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike, points: npt.ArrayLike, faces: npt.ArrayLike) -> None:
         of_kind = (("lower", lower, np.float64), ("upper", upper, np.float64), ("points", points, np.float64),
                    ("faces", faces, np.uint32))
         for name, values, kind in of_kind:
@@ -33,7 +35,7 @@ class Closest(Record):
     def __reduce__(self):  # unpickled arrays could be written to
         return Closest, (self.lower, self.upper, self.points, self.faces)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[npt.NDArray[Any]]:
         return iter((self.upper, self.points, self.faces))
 
     def _row(self):

@@ -1,15 +1,12 @@
 """Metrics of two surfaces by the names that papers use: vkhausdorff.metrics()."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from math import inf, nan
 from typing import Any
 
 from vkhausdorff import _core, _masks
-from vkhausdorff._survey import Interval, html_table
-
-_LENGTHS = ("hausdorff", "hd_p", "hd_p_pooled", "masd", "assd", "rms", "chamfer_l1", "chamfer_l2")
-_SHARES = ("nsd", "precision", "recall", "f1")
-_SHARES_NORMALS = ("precision_normals", "recall_normals", "f1_normals")
+from vkhausdorff._core import Result
+from vkhausdorff._survey import Interval, html_table, interval, plain_figures
 
 
 @dataclass(frozen=True)
@@ -32,21 +29,21 @@ class Metrics:
     rms: Interval
     chamfer_l1: Interval
     chamfer_l2: Interval
-    nsd: dict[Any, Interval]
-    precision: dict[Any, Interval]
-    recall: dict[Any, Interval]
-    f1: dict[Any, Interval]
+    nsd: dict[float | str, Interval]
+    precision: dict[float | str, Interval]
+    recall: dict[float | str, Interval]
+    f1: dict[float | str, Interval]
     met: bool
     unmet: tuple[str, ...]
-    result: Any
-    normal_consistency: Any = None
-    precision_normals: dict[Any, Interval] = field(default_factory=dict)
-    recall_normals: dict[Any, Interval] = field(default_factory=dict)
-    f1_normals: dict[Any, Interval] = field(default_factory=dict)
+    result: Result
+    normal_consistency: Interval | None = None
+    precision_normals: dict[float | str, Interval] = field(default_factory=dict)
+    recall_normals: dict[float | str, Interval] = field(default_factory=dict)
+    f1_normals: dict[float | str, Interval] = field(default_factory=dict)
 
     __hash__ = None
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Interval:
         if name.startswith("hd") and name[2:].removesuffix("_pooled") == f"{self.percentile:g}":
             return self.hd_p_pooled if name.endswith("_pooled") else self.hd_p
         raise AttributeError(f"no figure is called {name!r}; the percentile is {self.__dict__.get('percentile')!r}")
@@ -57,16 +54,15 @@ class Metrics:
             yield name.replace("_p", f"{self.percentile:g}", 1) if name.startswith("hd_p") else name, getattr(self, name)
         if self.normal_consistency is not None:
             yield "normal_consistency", self.normal_consistency
-        for name in _SHARES + _SHARES_NORMALS:
+        for name in _SHARES:
             for distance, interval in getattr(self, name).items():
                 yield f"{name}@{distance}", interval
 
-    def to_dict(self):
+    def to_dict(self) -> dict[str, Any]:
         """All of it as plain values, which json.dumps takes."""
-        figures = {name: {"lower": e.lower, "upper": e.upper, "estimate": e.estimate, "jump": e.jump} for name, e in self._rows()}
-        return {"percentile": self.percentile, "met": self.met, "unmet": list(self.unmet), **figures}
+        return {"percentile": self.percentile, "met": self.met, "unmet": list(self.unmet), **plain_figures(dict(self._rows()))}
 
-    def to_frame(self):
+    def to_frame(self) -> Any:
         """A pandas.DataFrame of one row: each figure's estimate by its name, with its ends beside, as hd95_lower."""
         import pandas
 
@@ -86,19 +82,21 @@ class Metrics:
 
 
 Metrics.__module__ = "vkhausdorff"
+_LENGTHS = tuple(one.name for one in fields(Metrics) if one.type is Interval)
+_SHARES = tuple(one.name for one in fields(Metrics) if one.type == dict[float | str, Interval])
 
 
 def _made(result):
     found = result.stats.pop("metrics")
-    shares = {name: {} for name in _SHARES + _SHARES_NORMALS}
-    asked = found["figures"] or [*_LENGTHS, "normal_consistency", *shares]
-    unmet = [name for name, (_, met) in found["lengths"].items() if not met and name in asked]
-    for distance, figures in found["within"]:
-        for name, (bounds, met) in figures.items():
-            shares[name][distance] = Interval(*bounds)
-            unmet += [] if met or name not in asked else [f"{name}@{distance}"]
-    lengths = {name: Interval(*bounds) for name, (bounds, _) in found["lengths"].items()}
-    return Metrics(percentile=found["percentile"], **lengths, **shares, met=not unmet, unmet=tuple(unmet), result=result)
+    asked = found.get("figures") or [*_LENGTHS, "normal_consistency", *_SHARES]
+    lengths = {name: one for name, one in found.items() if isinstance(one, dict)}
+    within = {given: {name: one for name, one in shares.items() if isinstance(one, dict)}
+              for given, shares in zip(found["bands"], found["within"])}
+    unmet = [name for name, one in lengths.items() if not one["met"] and name in asked]
+    unmet += [f"{name}@{given}" for given, shares in within.items() for name, one in shares.items() if not one["met"] and name in asked]
+    shares = {name: {given: interval(shares[name]) for given, shares in within.items() if name in shares} for name in _SHARES}
+    return Metrics(percentile=found["percentile"], **{name: interval(one) for name, one in lengths.items()}, **shares, met=not unmet,
+                   unmet=tuple(unmet), result=result)
 
 
 def _without_surface(named, no_a, no_b):
@@ -112,7 +110,7 @@ def _without_surface(named, no_a, no_b):
 
     lengths = {name: exactly(nan if no_a and no_b else inf) for name in _LENGTHS}
     shares = {
-        name: {distance: exactly(of_shares.get(name, known)) for distance in getattr(named, name)} for name in _SHARES + _SHARES_NORMALS
+        name: {distance: exactly(of_shares.get(name, known)) for distance in getattr(named, name)} for name in _SHARES
     }
     consistency = None if named.normal_consistency is None else exactly(nan)
     return replace(named, **lengths, **shares, normal_consistency=consistency, met=True, unmet=(), result=None)

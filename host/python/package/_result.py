@@ -1,6 +1,6 @@
 """What Python adds to a Result of vkhausdorff._core: values that are made of others."""
 
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from vkhausdorff._core import Result
 from vkhausdorff._survey import Interval, html_table
@@ -13,7 +13,7 @@ class Witness(NamedTuple):
     the closest point that was found of the other mesh.
     """
 
-    mesh: str
+    mesh: Literal["a", "b"]
     face: int
     barycentric: tuple[float, float, float]
     point: tuple[float, float, float]
@@ -32,17 +32,14 @@ def _row(r: Result) -> dict[str, Any]:
     row = {"lower": r.lower, "upper": r.upper, "gap": r.gap, "status": r.status, "verdict": r.verdict,
            "witness_mesh": r.witness.mesh, "witness_face": r.witness.face}
     row.update({f"witness_{axis}": value for axis, value in zip("xyz", r.witness.point)})
-    for name in ("mean", "rms"):
-        if (enclosure := getattr(r, name)) is not None:
-            row[f"{name}_lower"], row[f"{name}_upper"] = enclosure
-    for share, enclosure in (r.percentiles or {}).items():
-        row[f"p{100 * share:g}_lower"], row[f"p{100 * share:g}_upper"] = enclosure
+    for name, enclosure in (r.figures or {}).items():
+        row[f"{name}_lower"], row[f"{name}_upper"] = enclosure
     row["notes"] = "; ".join(f"{note['code']}: {note['text']}" for note in r.notes)
     return row
 
 
 def _to_frame(self):
-    """A pandas.DataFrame of one row: lower, upper, gap, status, verdict, the witness, mean, rms, percentiles and notes."""
+    """A pandas.DataFrame of one row: lower, upper, gap, status, verdict, the witness, A's figures and notes."""
     import pandas
 
     return pandas.DataFrame([_row(self)])

@@ -1,9 +1,11 @@
 """The result of simplify(), as Python shows it. vkhausdorff._core makes it."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from vkhausdorff._survey import Interval, Record
 
@@ -18,15 +20,16 @@ class Simplified(Record):
     that were judged. It unpacks as vertices, faces, interval.
     """
 
-    vertices: Any
-    faces: Any
+    vertices: npt.NDArray[np.float64]
+    faces: npt.NDArray[np.uint32]
     interval: Interval
     a_to_b: Interval
-    b_to_a: Any
+    b_to_a: Interval | None
     complete: bool
     tried: int
 
-    def __init__(self, vertices, faces, interval, a_to_b, b_to_a, complete, tried):
+    def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike, interval: tuple[float, float], a_to_b: tuple[float, float],
+                 b_to_a: tuple[float, float] | None, complete: bool, tried: int) -> None:
         for name, values, kind in (("vertices", vertices, np.float64), ("faces", faces, np.uint32)):
             own = np.array(values, dtype=kind)
             own.setflags(write=False)
@@ -39,7 +42,7 @@ class Simplified(Record):
     def __reduce__(self):  # unpickled arrays could be written to
         return Simplified, (self.vertices, self.faces, self.interval, self.a_to_b, self.b_to_a, self.complete, self.tried)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Any]:
         return iter((self.vertices, self.faces, self.interval))
 
     def _row(self):

@@ -4,9 +4,10 @@ from dataclasses import dataclass, field as _member, fields
 from html import escape
 from itertools import chain
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from vkhausdorff import _core
 
@@ -16,6 +17,11 @@ def html_table(row):
     cells = "".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in row.items()
                     if value not in (None, ""))
     return f"<table>{cells}</table>"
+
+
+def plain_figures(figures):
+    """Intervals by their names as plain values."""
+    return {name: {"lower": e.lower, "upper": e.upper, "estimate": e.estimate, "jump": e.jump} for name, e in figures.items()}
 
 
 class Record:
@@ -44,10 +50,10 @@ class Interval(_Bounds):
     percentile or a share, whether the distribution leaps there, so that no effort narrows it.
     """
 
-    estimate = None
-    jump = False
+    estimate: float | None = None
+    jump: bool = False
 
-    def __new__(cls, lower, upper, estimate=None, jump=False):
+    def __new__(cls, lower: float, upper: float, estimate: float | None = None, jump: bool = False) -> "Interval":
         made_one = super().__new__(cls, lower, upper)
         made_one.estimate = estimate
         made_one.jump = jump
@@ -56,7 +62,7 @@ class Interval(_Bounds):
     def __reduce__(self):
         return Interval, (self.lower, self.upper, self.estimate, self.jump)
 
-    def __contains__(self, value):
+    def __contains__(self, value: object) -> bool:
         return self.lower <= value <= self.upper
 
 
@@ -69,12 +75,12 @@ class Field:
     measured, for save(); a pickle of it does not.
     """
 
-    lower: Any
-    upper: Any
-    signed: Any = None
+    lower: npt.NDArray[np.float64]
+    upper: npt.NDArray[np.float64]
+    signed: "SignedField | Any" = None
     _source = None  # of save(): (mesh, lower, upper, unit, name of the other mesh)
 
-    def __init__(self, lower, upper, signed=None):
+    def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike, signed: "SignedField | None" = None) -> None:
         for name, values in (("lower", lower), ("upper", upper)):
             own = np.array(values, dtype=np.float64)
             own.setflags(write=False)
@@ -84,7 +90,7 @@ class Field:
     def __reduce__(self):  # unpickled arrays could be written to
         return type(self), (self.lower, self.upper, self.signed)
 
-    def save(self, path, mesh=None, *, map="viridis"):
+    def save(self, path: "_Path", mesh: "_Mesh | None" = None, *, map: "_Map" = "viridis") -> None:
         """Writes the mesh with these bounds and colours of its faces, to be looked at: what the program's --field writes.
 
         path: ends in .ply or .glb, which is the format, both binary. mesh: as distance() takes it, with as many faces; None
@@ -99,7 +105,7 @@ class Field:
             raise ValueError("mesh: give the one that was measured; a Field that was made by hand or unpickled has none")
         _core._save_field(path, self.lower, self.upper, source, map)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self.lower)
 
     def __eq__(self, other):
@@ -122,7 +128,7 @@ class SignedField(Field):
     """
 
     @property
-    def side(self):
+    def side(self) -> npt.NDArray[np.int8]:
         is_over, is_under = (self.lower >= 0) & (self.upper > 0), (self.upper <= 0) & (self.lower < 0)
         return is_over.astype(np.int8) - is_under.astype(np.int8)
 
@@ -130,7 +136,7 @@ class SignedField(Field):
 class SidedPoint(NamedTuple):
     """A point of a mesh with a proven side: its place, the row of its face, and a distance that it is at least away."""
 
-    point: tuple
+    point: tuple[float, float, float]
     face: int
     lower: float
 
@@ -162,20 +168,20 @@ class Signed:
 
     over: Interval
     under: Interval
-    inside: str
+    inside: Literal["proven", "open", "crossing", "winding", "undecided"]
     open_edges: int
-    areas: Any
-    mean: Any
-    percentiles: Any
-    over_field: Any
-    under_field: Any
-    over_witness: Any = None
-    under_witness: Any = None
-    inside_out: str = "none"
+    areas: dict[str, Any] | Any
+    mean: Interval | Any
+    percentiles: dict[float, Interval]
+    over_field: Field | Any
+    under_field: Field | Any
+    over_witness: SidedPoint | Any = None
+    under_witness: SidedPoint | Any = None
+    inside_out: Literal["none", "part", "all"] = "none"
 
     __hash__ = None
 
-    def to_dict(self):
+    def to_dict(self) -> dict[str, Any]:
         """All of it as plain values, which json.dumps takes."""
         plain = {"over": list(self.over), "under": list(self.under), "inside": self.inside, "open_edges": self.open_edges,
                  "inside_out": self.inside_out, "areas": None, "mean": list(self.mean) if self.mean is not None else None,
@@ -201,26 +207,28 @@ class Survey:
     ended it early: the next run may differ), 'cancelled' or 'memory'. stats: its effort and cost. signed: a Signed, or None.
     points: of a mesh of points, how many: area is 0, and all figures and shares weigh points alike; otherwise None.
     kept: with max_distance, the Interval of the share of the mesh that is within it, of which figures are; otherwise None.
+    figures: {name: Interval} of all of these: 'mean', 'rms', 'p95', 'within_0.5', 'kept', 'over', 'signed_mean' and so on.
     """
 
     upper: float
-    field: Any
-    area: Any
-    mean: Any
-    rms: Any
-    percentiles: Any
-    bands: Any
-    curve: Any
+    field: Field | Any
+    area: float | Any
+    mean: Interval | Any
+    rms: Interval | Any
+    percentiles: dict[float, Interval] | Any
+    bands: dict[float | str, Interval] | Any
+    curve: list[tuple[float, Interval]] | Any
     met: bool
-    ended: str
-    stats: Any = _member(compare=False)
-    signed: Any = None
-    points: Any = None
-    kept: Any = None
+    ended: Literal["met", "effort", "bits", "time", "cancelled", "memory"]
+    stats: dict[str, Any] = _member(compare=False)
+    signed: Signed | Any = None
+    points: int | Any = None
+    kept: Interval | Any = None
+    figures: dict[str, Interval] | Any = None
 
     __hash__ = None
 
-    def area_within(self, distance):
+    def area_within(self, distance: "_Number | str") -> Interval:
         """The Interval of the share of the area, from 0 to 1, that is within this distance of the other mesh.
 
         A number, in the coordinates' unit: narrow at one of bands, true at any. Or a string that was one of bands.
@@ -251,10 +259,10 @@ class Survey:
                 upper = min(upper, share.upper)
         return Interval(lower, upper)
 
-    def to_dict(self):
+    def to_dict(self) -> dict[str, Any]:
         """All of it as plain values, which json.dumps takes."""
         plain = {"upper": self.upper, "met": self.met, "ended": self.ended, "field": None, "statistics": None,
-                 "stats": dict(self.stats)}
+                 "stats": dict(self.stats), "figures": plain_figures(self.figures or {})}
         if self.field is not None:
             plain["field"] = {"lower": self.field.lower.tolist(), "upper": self.field.upper.tolist()}
             if self.field.signed is not None:
@@ -283,24 +291,36 @@ for _cls in (Interval, Field, SignedField, SidedPoint, Signed, Survey):
     _cls.__module__ = "vkhausdorff"  # the package's names, for pickles too
 
 
-def _signed(found, source):
+def interval(found, jump=None):
+    """The Interval of an enclosure's members; jump: where they stand beside it."""
+    return Interval(found["lower"], found["upper"], found.get("estimate"), (found if jump is None else jump).get("jump", False))
+
+
+def _intervals(found):
+    return {name: interval(one) for name, one in found.items()}
+
+
+def _sided_point(found):
+    return found and SidedPoint(tuple(found["point"]), found["face"], found["lower"])
+
+
+def _signed(found, over_field, under_field, source):
     if found is None:
         return None
-    mesh, *about = source if source is not None else (None,)
 
-    def field(side):
-        interval = found[side]
-        return _field(found[side + "_field"], (mesh, *interval[:2], *about[2:]) if source is not None else None)
+    def field(side, bounds):
+        ends = found[side]
+        about = source and (source[0], ends["lower"], ends["upper"], *source[3:])
+        return _field(bounds, about)
 
     areas = found["areas"]
     if areas is not None:
-        areas = {"over": Interval(*areas["over"]), "under": Interval(*areas["under"]),
-                 "unsigned": {why: Interval(*share) for why, share in areas["unsigned"].items()}}
-    witnesses = [SidedPoint(*found[name]) if found[name] is not None else None for name in ("over_witness", "under_witness")]
-    return Signed(Interval(*found["over"]), Interval(*found["under"]), found["inside"], found["open_edges"], areas,
-                  Interval(*found["mean"]) if found["mean"] is not None else None,
-                  {share: Interval(lower, upper) for share, lower, upper in found["percentiles"]},
-                  field("over"), field("under"), *witnesses, found["inside_out"])
+        areas = {"over": interval(areas["over"]), "under": interval(areas["under"]), "unsigned": _intervals(areas["unsigned"])}
+    return Signed(interval(found["over"]), interval(found["under"]), found["inside"], found["edges"]["open"], areas,
+                  found["mean"] and interval(found["mean"]),
+                  {one["share"]: interval(one["distance"]) for one in found["percentiles"]},
+                  field("over", over_field), field("under", under_field), _sided_point(found["over_witness"]),
+                  _sided_point(found["under_witness"]), found.get("inside_out", "none"))
 
 
 def _signed_field(signed):
@@ -309,18 +329,20 @@ def _signed_field(signed):
     return SignedField(0.0 - signed.under_field.upper, signed.over_field.upper)
 
 
-def made(field, statistics, upper, ended, stats, signed=None, source=None):
-    """Makes a Survey from the results of C++. source: what Field.save() needs."""
-    signed = _signed(signed, source)
-    field = _field(field, source, _signed_field(signed))
-    met = ended == "met"
-    if statistics is None:
-        return Survey(upper, field, None, None, None, None, None, None, met, ended, stats, signed)
+def _statistics(found, bands):
+    """What a Survey has of the members of statistics; bands: the distances as they were given."""
+    if found is None:
+        return dict.fromkeys(("area", "mean", "rms", "percentiles", "bands", "curve"))
+    return {"area": found["area"], "mean": interval(found["mean"]), "rms": interval(found["rms"]),
+            "percentiles": {one["share"]: interval(one["distance"], one) for one in found["percentiles"]},
+            "bands": {given: interval(one["share"], one) for given, one in zip(bands, found["bands"])},
+            "curve": [(one["distance"], interval(one["share"], one)) for one in found["curve"]],
+            "points": found.get("points"), "kept": interval(found["kept"]) if "kept" in found else None}
 
-    def pairs(name):
-        return [(key, Interval(*bounds)) for key, bounds in statistics[name]]
 
-    kept = statistics["kept"]
-    return Survey(upper, field, statistics["area"], Interval(*statistics["mean"]), Interval(*statistics["rms"]),
-                  dict(pairs("percentiles")), dict(pairs("bands")), pairs("curve"), met, ended, stats, signed,
-                  statistics["points"] or None, kept and Interval(*kept))
+def made(*, survey, figures, upper, bands, statistics=None, signed=None, field=None, over_field=None, under_field=None, source=None):
+    """Makes a Survey from the members of the answer's JSON. source: what Field.save() needs."""
+    signed = _signed(signed, over_field, under_field, source)
+    met, ended = survey.pop("met"), survey.pop("ended")
+    return Survey(upper=upper, field=_field(field, source, _signed_field(signed)), met=met, ended=ended, stats=survey, signed=signed,
+                  figures=_intervals(figures), **_statistics(statistics, bands))

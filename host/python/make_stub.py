@@ -1,0 +1,62 @@
+#!/usr/bin/env python3
+"""Writes the package's types, __init__.pyi: the template's lines, and the classes that Python defines.
+
+usage: make_stub.py PACKAGE OUT; PACKAGE has __init__.pyi.in and the modules. A line "# class NAME of MODULE" of the template
+stands for that class: its bases, the first line of its text, its annotated members, and the signatures of its methods.
+"""
+
+import ast
+import pathlib
+import re
+import sys
+
+SHOWN = {"__init__", "__new__", "__iter__", "__len__", "__contains__", "__getattr__"}  # besides names without an underscore
+BASES = {"NamedTuple", "_Bounds", "Field"}  # others are the package's own
+
+
+class Unquoted(ast.NodeTransformer):
+    """Types that stand in quotes in the module, since it does not know their names."""
+
+    def visit_Subscript(self, node):  # a Literal's texts stay
+        return node if isinstance(node.value, ast.Name) and node.value.id == "Literal" else self.generic_visit(node)
+
+    def visit_Constant(self, node):
+        return ast.parse(node.value, mode="eval").body if isinstance(node.value, str) else node
+
+
+def type_text(node: ast.expr) -> str:
+    return ast.unparse(Unquoted().visit(node))
+
+
+def member_lines(node: ast.stmt) -> list[str]:
+    if isinstance(node, ast.AnnAssign):
+        return [f"    {ast.unparse(node.target)}: {type_text(node.annotation)}"]
+    if not isinstance(node, ast.FunctionDef) or (node.name.startswith("_") and node.name not in SHOWN):
+        return []
+    if node.returns is None:
+        return []
+    for argument in (*node.args.args, *node.args.kwonlyargs):
+        if argument.annotation is not None:
+            argument.annotation = Unquoted().visit(argument.annotation)
+    decorators = [f"    @{ast.unparse(one)}" for one in node.decorator_list]
+    return [*decorators, f"    def {node.name}({ast.unparse(node.args)}) -> {type_text(node.returns)}: ..."]
+
+
+def class_text(module: pathlib.Path, name: str) -> str:
+    (node,) = (one for one in ast.parse(module.read_text(encoding="utf-8")).body if isinstance(one, ast.ClassDef) and one.name == name)
+    bases = ", ".join(one.id for one in node.bases if isinstance(one, ast.Name) and one.id in BASES)
+    said = ast.get_docstring(node)
+    first = [f'    """{said.splitlines()[0]}"""', ""] if said else []
+    members = [line for one in node.body for line in member_lines(one)]
+    return "\n".join([f"class {name}({bases}):" if bases else f"class {name}:", *first, *members])
+
+
+def main() -> None:
+    package, out = map(pathlib.Path, sys.argv[1:])
+    template = (package / "__init__.pyi.in").read_text(encoding="utf-8")
+    text = re.sub(r"^# class (\w+) of (\w+)$", lambda at: class_text(package / f"{at[2]}.py", at[1]), template, flags=re.M)
+    out.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
