@@ -101,6 +101,13 @@ def signature_text(arguments: ast.arguments) -> str:
     return str(inspect.signature(namespace["f"]))
 
 
+def signature_of(function) -> str:
+    """The signature of what the module has, without the types."""
+    said = inspect.signature(function)
+    bare = [one.replace(annotation=one.empty) for one in said.parameters.values()]
+    return str(said.replace(parameters=bare, return_annotation=said.empty))
+
+
 def stub_of(body: list) -> dict:
     return {node.name: node for node in body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
 
@@ -180,7 +187,7 @@ class Types(unittest.TestCase):
     def test_functions_have_its_signatures(self):
         for name, node in stub_of(STUB.body).items():
             if isinstance(node, ast.FunctionDef):
-                self.assertEqual(signature_text(node.args), str(inspect.signature(getattr(vkh, name))), name)
+                self.assertEqual(signature_text(node.args), signature_of(getattr(vkh, name)), name)
 
     def test_classes_have_its_members(self):
         for name, node in stub_of(STUB.body).items():
@@ -202,7 +209,7 @@ class Types(unittest.TestCase):
                     if is_property(member):
                         self.assertIsInstance(inspect.getattr_static(cls, key), property)
                     else:
-                        self.assertEqual(signature_text(member.args), str(inspect.signature(getattr(cls, key))))
+                        self.assertEqual(signature_text(member.args), signature_of(getattr(cls, key)))
 
     def test_the_module_takes_what_its_signatures_say(self):
         """The signatures are texts: the parser's own list is in what it says to a stranger."""
