@@ -9,7 +9,8 @@ import re
 import subprocess
 import sys
 
-OURS = re.compile(r"(vkh[A-Z]\w*|(\w+ for |non-virtual thunk to )*vkh::.*)$")
+# _ZN3vkh: a template whose lambdas c++filt cannot read.
+OURS = re.compile(r"(vkh[A-Z]\w*|(\w+ for |non-virtual thunk to )*vkh::.*|_ZNK?3vkh.*)$")
 # Names of those who use the same headers, which mean the same there. DW.ref: what C++ compilers make for exceptions.
 SHARED = re.compile(r"(std|__gnu_cxx|__cxxabiv1|glm|nlohmann|VkhContext_T|vkh)\b|operator |DW\.ref\.|__clang_call_terminate")
 

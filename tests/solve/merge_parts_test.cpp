@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -159,20 +160,28 @@ TEST_CASE("all parts, each once, of one question") {
     all[2].json[Json::json_pointer(pointer)] = value;
     return all;
   };
+  // The first line goes with these.
+  const auto another = [&](const std::function<void(Answer&)>& change) {
+    std::vector<WrittenAnswer> all = three();
+    Answer last = answer_of(1, 3, 0.5, 0.5);
+    change(last);
+    all[2] = written(last);
+    return all;
+  };
+  check_refused(another([](Answer& a) { a.unit.clear(); }), "another unit");
+  check_refused(another([](Answer& a) { a.part->count = 4; }), "another number of parts");
+  check_refused(another([](Answer& a) { a.part->index = 7; }), "a part that cannot be");
   check_refused(spoilt("/inputs/0/sha256", std::string(64, 'c')), "another A");
   check_refused(spoilt("/inputs/1/sha256", std::string(64, 'c')), "another B");
   check_refused(spoilt("/inputs/1/sha256", nullptr), "no SHA-256");
   check_refused(spoilt("/inputs/0/faces", 7), "another choice of --bodies");
   check_refused(spoilt("/inputs/1/notes", {"bodies: left out: 1 modifier (12 faces)"}),
                 "another choice of --bodies");
-  check_refused(
-      spoilt("/inputs/1/notes", Json::array({{{"code", "bodies"}, {"text", "left out"}}})),
-      "another choice of --bodies");
+  const Json note = {{"code", "bodies"}, {"text", "left out"}, {"value", nullptr},
+                     {"unit", nullptr},  {"file", nullptr},    {"face", nullptr}};
+  check_refused(spoilt("/inputs/1/notes", Json::array({note})), "another choice of --bodies");
   check_refused(spoilt("/tolerance/absolute", 0.5), "another tolerance");
-  check_refused(spoilt("/tolerance/unit", nullptr), "another unit");
   check_refused(spoilt("/version", "9.9"), "another version");
-  check_refused(spoilt("/part/count", 4), "another number of parts");
-  check_refused(spoilt("/part/index", 7), "a part that cannot be");
   check_refused(spoilt("/part/index", "x"), "expected an answer of 'distance --part'");
   check_refused(spoilt("/part/index", 1.9), "index 1.9 is no whole number");
   check_refused(spoilt("/part/index", 1.0), "index 1.0 is no whole number");
