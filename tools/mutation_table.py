@@ -12,6 +12,7 @@ PAPER = "shaders/paper/bounds_paper.h"
 BARY = "shaders/math/bary.h"
 DYADIC = "shaders/math/dyadic.h"
 CELL = "shaders/report/cell.h"
+PARTS = "shaders/math/parts.h"
 LOWER = "shaders/math/lower.h"
 FRAME = "host/solve/frame.cpp"
 LENGTH = "host/base/length.cpp"
@@ -23,6 +24,7 @@ ON_TRIANGLE = ["lib_attack_test", "lib_triangle_test", "lib_model_test"]
 ON_BOUNDS = ["lib_attack_test", "lib_bounds_test", "lib_model_test"]
 ON_BARY = ["lib_attack_test", "lib_bary_test", "lib_model_test"]
 ON_CELL = ["lib_cell_model_test", "lib_cell_test"]
+ON_PARTS = ["lib_parts_model_test", "lib_parts_test"]
 ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
 ON_LENGTH = ["diagonal_test"]
@@ -157,19 +159,59 @@ ROWS = [
     row("bound_third's centroid", PAPER, "max(middles, surface_distance_up(centre, s))",
         ["max(middles, min(middles, surface_distance_up(centre, s)))"], ON_BOUNDS),
 
+    # parts.h
+    counts("shortened", PARTS, "1.0f - {8.0f} * kUlp, norm_up(r)", ON_PARTS, steps=[4.0, 0.0, -32.0]),
+    row("kThirdUp", PARTS, "kThirdUp = 0.33333334f", ["kThirdUp = 0.3333333f"], ON_PARTS),
+    row("kThirdDown", PARTS, "kThirdDown = 0.33333331f", ["kThirdDown = 0.33333334f"], ON_PARTS),
+    row("kSixthUp", PARTS, "kSixthUp = 0.16666667f", ["kSixthUp = 0.1666666f"], ON_PARTS),
+    row("mean_down's sum", PARTS, "float off = 2.0f * kUlp", ["float off = 0.0f * kUlp"], ON_PARTS),
+    row("kSixthDown", PARTS, "kSixthDown = 0.16666666f", ["kSixthDown = 0.16666670f"], ON_PARTS),
+    row("kTwelfthUp", PARTS, "kTwelfthUp = 0.083333336f", ["kTwelfthUp = 0.08333f"], ON_PARTS),
+    row("kTwelfthDown", PARTS, "kTwelfthDown = 0.083333328f", ["kTwelfthDown = 0.08333345f"], ON_PARTS),
+    counts("mean_size_up", PARTS, "kThirdUp, {13.0f})", ON_PARTS),
+    counts("mean_size_down", PARTS, "round_down(thrice_mean_size(s) * kThirdDown, {13.0f})", ON_PARTS),
+    counts("mean_over_down", PARTS, "round_down(whole * kThirdDown, {12.0f})", ON_PARTS),
+    counts("square_down", PARTS, "kTwelfthDown, {7.0f})", ON_PARTS),
+    counts("square_over_down", PARTS, "choose(z.none, whole, cut), {13.0f})", ON_PARTS),
+    counts("share_beyond, from below", PARTS, "share - {12.0f} * kUlp", ON_PARTS),
+    counts("share_beyond, from above", PARTS, "share + {12.0f} * kUlp", ON_PARTS),
+    row("share_of's other side", PARTS, "over.up + under.up", ["over.up"], ON_PARTS),
+    counts("cut_part's slack", PARTS, "{5.0f} * kUlp * radius_up(p.at)", ON_PARTS),
+    row("cut_part's last share", PARTS, "c.to_first * (1.0f - c.to_second)", ["c.to_first"], ON_PARTS),
+    counts("plane_of's normal", PARTS, "1.0f - {8.0f} * kUlp, round_up(norm_up(n.hi)", ON_PARTS, steps=[4.0, 0.0, -32.0]),
+    row("plane_of's low part", PARTS, "round_up(norm_up(n.hi) + norm_up(n.lo), 1.0f)", ["norm_up(n.hi)"], ON_PARTS),
+    counts("height_off's height", PARTS, "{3.0f} * kUlp * height", ON_PARTS),
+    counts("height_off's size", PARTS, "{10.0f} * kUlp2 * size", ON_PARTS),
+    row("span_over's slack", PARTS, "max3(sizes(h))) + s.slack", ["max3(sizes(h)))"], ON_PARTS),
+    row("span_over's corners", PARTS, "raised(max3(h) + round_up(off, 1.0f))", ["raised(h.x + round_up(off, 1.0f))"], ON_PARTS),
+    counts("beside's height", PARTS, "{3.5f} * kUlp * abs(h)", ON_PARTS),
+    row("tau's corners", PARTS, "float by_height = round_up(mean_size_up(heights) + tau, 1.0f)",
+        ["tau = 0.5f * tau;\n  float by_height = round_up(mean_size_up(heights) + tau, 1.0f)",
+         "tau = 0.0f;\n  float by_height = round_up(mean_size_up(heights), 1.0f)"], ON_PARTS),
+    row("slack_of", PARTS, "round_up(p.slack + s.slack, 1.0f)", ["p.slack", "s.slack"], ON_PARTS),
+    row("part_above's off", PARTS, "choose(b.is_size, tau, 0.0f) + slack", ["choose(b.is_size, tau, 0.0f)"], ON_PARTS),
+    counts("part_minorant's part", PARTS, "{4.0f} * radius_up(p.at)", ON_PARTS),
+    counts("part_minorant's triangle", PARTS, "{5.0f} * radius_up(r.at)", ON_PARTS),
+    row("part_minorant's slack", PARTS, "round_up(rounding, 4.0f) + r.slack", ["round_up(rounding, 4.0f)"], ON_PARTS),
+    row("greatest_over's crossings", PARTS, "max(most, at_crossing(s.x, s.y, w.x, w.y))", ["most"], ON_PARTS),
+    row("greatest_over's corners", PARTS, "choose(s.y >= 0.0f, w.y, -3.0e38f)", ["-3.0e38f"], ON_PARTS),
+    counts("at_crossing", PARTS, "{8.0f} * kUlp * (abs(wi)", ON_PARTS),
+    row("excess_of_span's heights", PARTS, "raised(span.most + heights_off)", ["raised(span.most)"], ON_PARTS),
+    row("with_excess's least", PARTS, "b.at = min(b.at, e.at)", ["b.at = e.at"], ON_PARTS),
+    row("with_excess's most", PARTS, "b.under = max(b.under, e.under)", ["b.under = e.under"], ON_PARTS),
+    row("part_below's slack", PARTS, "max(over, under) + p.slack", ["max(over, under)"], ON_PARTS),
+    row("part_below's other slack", PARTS, "less(below.at, p.slack)", ["below.at"], ON_PARTS),
+    row("part_below's side", PARTS, "choose(least3(h) < 0.0f, below.under, 0.0f)", ["0.0f"], ON_PARTS),
+    row("part_below's square", PARTS, "round_up(2.0f * off * mean_size_up(h), 2.0f)", ["0.0f"], ON_PARTS),
+
     # cell.h
     counts("CellFrame::slack", CELL, "round_up({7.0f} * kUlp * cell.radius", ON_CELL),
     row("CellFrame::slack's reach", CELL, " + 16.0f * kUlp2 * cell.reach", [" + 4.0f * kUlp2 * cell.reach", ""], ON_CELL),
     row("CellFrame::radius", CELL, "cell.radius = radius_up(cell.at)", ["cell.radius = 0.5f * radius_up(cell.at)"], ON_CELL),
-    counts("shortened", CELL, "1.0f - {8.0f} * kUlp", ON_CELL, steps=[4.0, 0.0, -32.0]),
     counts("minorant_off's products", CELL, "round_up({5.0f} * kUlp * (t.radius", ON_CELL),
     row("minorant_off's slacks", CELL, "rounding + s.slack + t.slack", ["rounding + s.slack", "rounding"], ON_CELL),
     row("a cell's distance's slacks", CELL, "s.at, inside)) + (s.slack + t.slack)", ["s.at, inside)) + t.slack", "s.at, inside))"], ON_CELL),
     row("a cut's slacks", CELL, "s.at)) + (s.slack + t.slack), 3.0f", ["s.at)), 3.0f"], ON_CELL),
-    row("kThirdUp", CELL, "kThirdUp = 0.33333334f", ["kThirdUp = 0.3333333f"], ON_CELL),
-    row("kThirdDown", CELL, "kThirdDown = 0.33333331f", ["kThirdDown = 0.33333334f"], ON_CELL),
-    row("kSixthUp", CELL, "kSixthUp = 0.16666667f", ["kSixthUp = 0.1666666f"], ON_CELL),
-    row("mean_down's sum", CELL, "float off = 2.0f * kUlp", ["float off = 0.0f * kUlp"], ON_CELL),
     row("plane_above's cuts", CELL, "max(max(p - on_p, q - on_q), 0.0f)", ["max(p - on_p, 0.0f)", "0.0f"], ON_CELL),
     row("a cut's third piece", CELL, "1.0f - to_p, to_p * (1.0f - to_q)", ["1.0f - to_p, 0.0f"], ON_CELL),
     row("a cut's other side", CELL, "max(ps, pr), to_q, max(qs, qr)", ["min(ps, pr), to_q, min(qs, qr)"], ON_CELL),

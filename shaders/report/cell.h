@@ -18,7 +18,7 @@
 #define VKH_SHADERS_REPORT_CELL_H
 
 #include "shaders/math/bary.h"
-#include "shaders/math/bounds.h"
+#include "shaders/math/parts.h"
 
 VKH_LIB_BEGIN
 
@@ -92,30 +92,6 @@ VKH_FN Gathered nothing_gathered() {
   return g;
 }
 
-VKH_CONST float kThirdUp = 0.33333334f;    // 0x3eaaaaab, above 1/3
-VKH_CONST float kThirdDown = 0.33333331f;  // 0x3eaaaaaa, below it
-VKH_CONST float kSixthUp = 0.16666667f;    // 0x3e2aaaab, above 1/6
-
-VKH_FN float least3(vec3 d) { return min(d.x, min(d.y, d.z)); }
-
-// >= the mean of three lengths, and <= that of three numbers of any sign.
-VKH_FN float mean_up(vec3 d) { return round_up((d.x + d.y + d.z) * kThirdUp, 4.0f); }
-VKH_FN float mean_down(vec3 d) {
-  float off = 2.0f * kUlp * (abs(d.x) + abs(d.y) + abs(d.z));
-  return lowered((d.x + d.y + d.z) * kThirdDown - off);
-}
-
-// >= the mean square of the affine function with these values, none negative, at T's corners.
-VKH_FN float mean_square_up(vec3 d) {
-  float squares = d.x * d.x + d.y * d.y + d.z * d.z;
-  float products = d.x * d.y + d.y * d.z + d.z * d.x;
-  return round_up((squares + products) * kSixthUp, 8.0f);
-}
-
-// r shortened so that |g| <= 1 in exact arithmetic, by 8 kUlp: a quotient is off by 2.5, a product
-// by one. 0 if r is no direction.
-VKH_FN vec3 shortened(vec3 r) { return ratio(1.0f - 8.0f * kUlp, norm_up(r)) * r; }
-
 // g.(x - s) at T's centre and corners, s the corner of S where it is least: each less `off`.
 struct Minorant {
   float centre;
@@ -138,8 +114,6 @@ VKH_FN Minorant minorant(CellFrame t, Surface s, vec3 g, float off) {
   m.at_corners.z = lowered((dot3(g, t.at.c) - farthest) - off);
   return m;
 }
-
-VKH_FN float sum3(vec3 d) { return d.x + d.y + d.z; }
 
 // Chooses, of two for the same S, the one that is less under the nearest triangle's, so that it
 // lowers the least of all less; both hold at the centre.
@@ -220,8 +194,6 @@ VKH_FN Gathered gathered(Gathered g, CellFrame t, Surface s, uint triangle) {
   g = with_corners(g, d, triangle);
   return with_upper(g, d, mean_up(d), mean_square_up(d));
 }
-
-VKH_FN vec3 corner_of(Corners t, uint i) { return choose(i == 0u, t.a, choose(i == 1u, t.b, t.c)); }
 
 // d(p, S) from above, p off by T's slack.
 VKH_FN float cell_distance(CellFrame t, vec3 p, Surface s) {

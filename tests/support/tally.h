@@ -53,6 +53,7 @@ class Tally {
     return it == counts_.end() ? 0 : it->second;
   }
 
+  uint64_t violated() const { return violation_count_; }
   /// Enough violations are known: the rest of the cases need not run.
   bool hopeless() const { return violation_count_ >= 1000; }
 

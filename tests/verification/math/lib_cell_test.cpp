@@ -17,40 +17,13 @@
 #undef float
 
 #include "tests/support/tally.h"
+#include "tests/verification/math/cell_cases.h"
 #include "tests/verification/oracle/closest.h"
 
 using namespace vkh;
 using namespace vkh::test;
 
 namespace {
-
-struct CellCase {
-  StoredTriangle root;
-  math::Bary3 cell;
-  std::vector<StoredTriangle> b;
-};
-
-math::Bary3 halved(Random& random) {
-  math::Bary3 t = math::whole_root();
-  for (uint32_t k = random.below(16); k > 0; --k) {
-    const uint32_t opposite = random.below(3);
-    if (!math::has_middle_opposite(t, opposite)) break;
-    const math::Halves h = math::halves_of(t, opposite, math::middle_opposite(t, opposite));
-    t = random.below(2) == 0 ? h.first : h.second;
-  }
-  return t;
-}
-
-CellCase hard_case(Random& random) {
-  CellCase c{hard_triangle(random), halved(random), {}};
-  const uint32_t count = 1 + random.below(4);
-  const glm::dvec3 about = c.root.at(random.below(3));
-  for (uint32_t k = 0; k < count; ++k)
-    c.b.push_back(random.below(3) == 0
-                      ? hard_triangle(random)
-                      : hard_triangle_near(random, about, std::pow(2.0, -20 * random.unit())));
-  return c;
-}
 
 struct CellAnswer {
   glm::vec3 lower, upper;
@@ -59,10 +32,7 @@ struct CellAnswer {
 
 CellAnswer gathered(const CellCase& c, const Device& device) {
   return device.run([&]() -> CellAnswer {
-    const math::Root root =
-        math::make_root(math::given(c.root.corner[0]), math::given(c.root.corner[1]),
-                        math::given(c.root.corner[2]));
-    const math::CellFrame t = math::make_cell(root, c.cell);
+    const math::CellFrame t = cell_frame(c);
     std::vector<math::Surface> surfaces;
     for (const StoredTriangle& s : c.b)
       surfaces.push_back(math::make_surface(math::given(s.corner[0]), math::given(s.corner[1]),
@@ -93,32 +63,8 @@ constexpr std::array<std::array<int, 3>, 10> kPoints = {{{4, 0, 0},
                                                          {1, 2, 1},
                                                          {1, 1, 2},
                                                          {3, 0, 1}}};
-constexpr int kScaleBits = gpu::kBaryBits + 2;
-
-/// The point, times 2^kScaleBits.
-exact::Vector scaled_point(const CellCase& c, const std::array<int, 3>& weights) {
-  const ExactTriangle root(c.root);
-  const exact::Vector ab = root.b - root.a, ac = root.c - root.a;
-  exact::Vector sum = Integer(1 << kScaleBits) * root.a;
-  const std::array<glm::uvec2, 3> corners = {c.cell.a, c.cell.b, c.cell.c};
-  for (size_t i = 0; i < 3; ++i) {
-    sum = sum + Integer(weights[i]) * (Integer(corners[i].x) * ab + Integer(corners[i].y) * ac);
-  }
-  return sum;
-}
-
-/// The squared distance of the point from the nearest triangle.
-Rational squared_distance(const CellCase& c, const exact::Vector& scaled) {
-  Rational least = -1;
-  for (const StoredTriangle& s : c.b) {
-    const ExactTriangle t(s);
-    const Integer scale(1 << kScaleBits);
-    const Rational d =
-        ExactTriangle(scale * t.a, scale * t.b, scale * t.c).squared_distance(scaled);
-    if (least < 0 || d < least) least = d;
-  }
-  const Integer shrink = Integer(1) << (2 * kScaleBits);
-  return least / Rational(shrink);
+Weights quarters(const std::array<int, 3>& weights) {
+  return {Rational(weights[0]) / 4, Rational(weights[1]) / 4, Rational(weights[2]) / 4};
 }
 
 Rational affine(const glm::vec3& at, const std::array<int, 3>& weights) {
@@ -131,7 +77,7 @@ Rational affine(const glm::vec3& at, const std::array<int, 3>& weights) {
 void check_points(const CellCase& c, const CellAnswer& got, Tally& tally, const auto& describe) {
   Rational largest = 0, farthest = 0;
   for (const std::array<int, 3>& weights : kPoints) {
-    const Rational d2 = squared_distance(c, scaled_point(c, weights));
+    const Rational d2 = squared_distance(c, quarters(weights));
     const Rational lower = affine(got.lower, weights), upper = affine(got.upper, weights);
     tally.require(lower <= 0 || lower * lower <= d2, "lower(x) <= d(x, B)", describe);
     tally.require(upper >= 0 && upper * upper >= d2, "d(x, B) <= upper(x)", describe);
@@ -142,7 +88,7 @@ void check_points(const CellCase& c, const CellAnswer& got, Tally& tally, const 
                   (got.highest - sqrt_near(largest)) / std::max(got.highest, 1e-30), describe);
   }
   for (size_t i = 0; i < 3; ++i)
-    farthest = std::max(farthest, squared_distance(c, scaled_point(c, kPoints[i])));
+    farthest = std::max(farthest, squared_distance(c, quarters(kPoints[i])));
   tally.require(Rational(got.reached) * Rational(got.reached) <= farthest,
                 "some point is as far as reached", describe);
 }
@@ -186,11 +132,7 @@ TEST_CASE("cell.h: what is gathered over a cell encloses the distance at every p
     const CellCase c = hard_case(random);
     const Device device(i);
     const CellAnswer got = gathered(c, device);
-    const auto describe = [&] {
-      std::string text = std::string(device.name()) + ": root " + hex(c.root) + " B";
-      for (const StoredTriangle& s : c.b) text += " " + hex(s);
-      return text;
-    };
+    const auto describe = [&] { return std::string(device.name()) + ": " + hex(c); };
     check_points(c, got, tally, describe);
     if (i % 8 == 0) check_means(c, got, tally, describe);
   }
