@@ -21,14 +21,14 @@ if(NOT VKH_SANITIZE)
                  long_walk_test face_limits_test see effort schema embed_shaders two_drivers driver_lavapipe128
                  kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address doctor
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
-                 golden proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
+                 proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
                  python_life python_fork python_lost python_distances python_distances_life)
   # A minute and more each: the same kernels with more cases, compiled for another card or system, and
   # the examples of clusters.
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
                     proven_placing batch_killed clang_all driver_lavapipe128_more platform_arm64 platform_libcxx
                      platform_arm64_more platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
-                     slurm dask clusters points_many)
+                     slurm dask clusters points_many golden)
   return()
 endif()
 
@@ -55,7 +55,7 @@ vkh_label(full ${all})
 vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
                   vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
                   python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs simplify_program
-                  align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test)
+                  align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test golden)
 # The programs of these tests and of tests/verification/fuzz: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)
-add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz api_fuzz)
+add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz answer_fuzz api_fuzz)
