@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the package's types, __init__.pyi: the template's lines, and the classes that Python defines.
 
-usage: make_stub.py PACKAGE OUT; PACKAGE has __init__.pyi.in and the modules. A line "# class NAME of MODULE" of the template
+usage: make_stub.py TEMPLATE PACKAGE OUT; PACKAGE has the modules. A line "# class NAME of MODULE" of the template
 stands for that class: its bases, the first line of its text, its annotated members, and the signatures of its methods.
 """
 
@@ -52,9 +52,8 @@ def class_text(module: pathlib.Path, name: str) -> str:
 
 
 def main() -> None:
-    package, out = map(pathlib.Path, sys.argv[1:])
-    template = (package / "__init__.pyi.in").read_text(encoding="utf-8")
-    text = re.sub(r"^# class (\w+) of (\w+)$", lambda at: class_text(package / f"{at[2]}.py", at[1]), template, flags=re.M)
+    template, package, out = map(pathlib.Path, sys.argv[1:])
+    text = re.sub(r"^# class (\w+) of (\w+)$", lambda at: class_text(package / f"{at[2]}.py", at[1]), template.read_text(encoding="utf-8"), flags=re.M)
     out.write_text(text, encoding="utf-8")
 
 
