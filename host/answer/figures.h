@@ -10,7 +10,8 @@
 
 namespace vkh {
 
-/// What a figure is of, where its words depend on it. They come in this order, A's direction first.
+/// The quantity of a figure, where its words depend on it. Figures come in this order, A's
+/// direction first.
 enum class FigureKind {
   kLargest,  ///< the distance itself
   kOver,     ///< the largest distance on one side of the other mesh

@@ -88,7 +88,7 @@ class JsonReader {
   void signed_ends(double& lower, double& upper) { read_ends(lower, upper, true); }
   void enclosure(Enclosure& e);
 
-  // What others imply, and what is for people.
+  // Members that others imply, and members for people.
   template <class Make, class Refusal>
   void implied(const char* key, const Make& make, const Refusal& refusal) {
     if (!compares_) return;

@@ -81,7 +81,7 @@ class MemberWriter {
     tree_.estimate(e);
   }
 
-  // What others imply, and what is for people.
+  // Members that others imply, and members for people.
   template <class Make, class Refusal>
   void implied(const char* key, const Make& make, const Refusal&) {
     put(key, make());

@@ -99,7 +99,7 @@ void visit_notes(V& v, Of<V, Input>& input) {
       });
 }
 
-/// What a failure, too, has of an input.
+/// The members of an input that a failure has, too.
 template <class V>
 void visit_source(V& v, Of<V, Input>& input, const char* name) {
   v.beside("name", name);
@@ -450,7 +450,7 @@ void visit_verified(V& v, Of<V, Report>& r, Of<V, WitnessCheck>& check) {
 
 inline constexpr const char* kWrongGap = "a gap that is not that of its interval";
 
-/// What a direction's search found.
+/// The findings of a direction's search.
 template <class V>
 void visit_search(V& v, const Answer& answer, Of<V, Report>& r) {
   v.named("status", r.status, kStatusWords);
@@ -586,7 +586,7 @@ void visit_meshes(V& v, Of<V, Answer>& answer) {
   v.optional("transform", answer.placed, [&](auto& placed) { visit(v, placed, answer); });
 }
 
-/// What an answer and a result line have in common.
+/// The members that an answer and a result line have in common.
 template <class V>
 void visit_common(V& v, Of<V, Answer>& answer) {
   v.in_unit(answer.unit);

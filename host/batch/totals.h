@@ -15,7 +15,7 @@ namespace vkh {
 /// Writes a percentage such as "2.64 %", rounded up.
 std::string percent_up(double ratio);
 
-/// What totals take of a result.
+/// The values that totals take of a result.
 struct Counted {
   Rank rank;
   ExitCode code = kExitClosed;

@@ -15,7 +15,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// What a direction was asked, found, did and cost.
+/// The question, findings, work and times of a direction.
 py::dict stats_of(const Answer& answer, const Report& r) {
   py::dict stats = members_of(answer.unit,
                               [&](auto& v) {

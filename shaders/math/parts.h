@@ -414,7 +414,7 @@ VKH_FN float slack_of(Part p, Surface s) { return round_up(p.slack + s.slack, 1.
 
 // ---- below ------------------------------------------------------------------------------------
 
-// What is known from below over P, of the triangles that were seen.
+// The bounds from below over P, of the triangles that were seen.
 struct PartBelow {
   vec3 heights;  // over S's plane
   float over;    // the size of the height less this is not above d, on the part over the plane,
@@ -474,7 +474,8 @@ VKH_FN vec3 less(vec3 x, float y) {
   return vec3(lowered(x.x - y), lowered(x.y - y), lowered(x.z - y));
 }
 
-// What one triangle, or what was not looked at, leaves of |h| and of an affine function.
+// The bound by one triangle, or by all that were not looked at: its excess, to be taken from |h| on
+// either side, and an affine function.
 struct Excess {
   float over, under;
   vec3 at;

@@ -44,7 +44,7 @@ Rational area_of(const Tile& t) {
   return abs(t[0][0] * minor(1, 2) + t[0][1] * minor(2, 0) + t[0][2] * minor(0, 1));
 }
 
-/// What is spoiled, each in a way that bounds rest on.
+/// The ways to spoil a part; a bound rests on each.
 enum class Spoil { kNone, kCut, kMissing, kSide, kTau, kPlane };
 
 struct Bound {
