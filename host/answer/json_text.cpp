@@ -7,6 +7,15 @@
 
 namespace vkh {
 
+bool is_utf8(const std::string& text) {
+  try {
+    (void)nlohmann::json(text).dump();
+    return true;
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
+}
+
 std::string& JsonText::value() {
   if (!is_first_) text_ += ',';
   is_first_ = false;

@@ -11,6 +11,9 @@
 
 namespace vkh {
 
+/// Whether a text can stand in JSON as it is.
+bool is_utf8(const std::string& text);
+
 /// A tree of MemberWriter.
 class JsonText {
  public:

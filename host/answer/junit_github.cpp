@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "host/answer/options.h"
+#include "host/answer/quantities.h"
 #include "host/base/decimal.h"
 #include "vkhausdorff/answer.h"
 #include "vkhausdorff/note.h"

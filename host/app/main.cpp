@@ -14,13 +14,13 @@
 
 #include "host/answer/ask_files.h"
 #include "host/answer/exit_code.h"
-#include "host/answer/options.h"
+#include "host/answer/option_values.h"
 #include "host/app/arguments.h"
 #include "host/app/doctor.h"
 #include "host/app/many_pairs.h"
 #include "host/app/out_of_memory.h"
 #include "host/app/outputs.h"
-#include "host/app/picture_options.h"
+#include "host/app/pictures.h"
 #include "host/app/simplify_command.h"
 #include "host/base/float_environment.h"
 #include "host/base/output_file.h"
@@ -57,9 +57,9 @@ void check_verified(const Answer& answer) {
 }
 
 /// Returns the answer, or writes the error to the outputs and throws it.
-Answered answer_for(const CommandLine& line, const Stop& stop, Destinations& destinations) {
+Answered answer_for(const Request& asked, const Stop& stop, Destinations& destinations) {
   try {
-    return ask(line.question, stop);
+    return ask(asked.question, stop);
   } catch (const Error& error) {
     destinations.write(failure_of(error));
     throw;
@@ -68,11 +68,10 @@ Answered answer_for(const CommandLine& line, const Stop& stop, Destinations& des
 
 /// Refuses two outputs in one file.
 void check_distinct(const Outputs& outputs) {
-  const PicturesAsked& p = outputs.pictures;
   std::set<std::filesystem::path> places;
   for (const std::optional<std::string>& file :
-       {outputs.json_file, outputs.junit_file, outputs.transform_file, p.field, p.image, p.report,
-        p.certificate, p.figures, p.points}) {
+       {outputs.json_file, outputs.junit, outputs.transform, outputs.field, outputs.image,
+        outputs.report, outputs.certificate, outputs.figures, outputs.points}) {
     if (file && !places.insert(std::filesystem::absolute(path_of(*file)).lexically_normal()).second)
       throw UsageError("two outputs would be written to '" + *file + "'");
   }
@@ -83,20 +82,19 @@ struct Places {
   Pictures pictures;
 };
 
-std::string case_name_of(const Question& question) {
-  std::string max;
-  if (question.max) max = question.max->requested;
-  if (question.max_sides) max = sided_text(question.max_sides->over, question.max_sides->under);
-  return pair_name(question.file_a, question.file_b, question.symmetric, max);
+std::string case_name_of(const Request& asked) {
+  const Question& question = asked.question;
+  return pair_name(question.file_a, question.file_b, question.symmetric, max_text(asked));
 }
 
-Places places_of(const CommandLine& line) {
-  check_distinct(line.outputs);
-  const std::vector<std::string> inputs = {line.question.file_a, line.question.file_b,
-                                           line.question.face_max_a, line.question.face_max_b,
-                                           line.question.transform_file};
-  return {.destinations = Destinations(line.outputs, inputs, case_name_of(line.question)),
-          .pictures = Pictures(line.outputs.pictures, line.question.symmetric, inputs)};
+Places places_of(const Request& asked) {
+  check_distinct(asked.outputs);
+  const Question& question = asked.question;
+  const std::vector<std::string> inputs = {question.file_a, question.file_b, question.face_max_a,
+                                           question.face_max_b, question.transform_file};
+  return {.destinations =
+              Destinations(asked.outputs, inputs, case_name_of(asked), question.verbose),
+          .pictures = Pictures(asked.outputs, question.symmetric, inputs)};
 }
 
 /// Reports the misuse of words that name no place for an answer, or not yet: programs may wait for
@@ -111,10 +109,10 @@ auto or_tell(const Words& words, const F& work) {
   }
 }
 
-int run_pair(const CommandLine& line, const Words& words, const Stop& stop) {
-  auto [destinations, pictures] = or_tell(words, [&] { return places_of(line); });
+int run_pair(const Request& asked, const Words& words, const Stop& stop) {
+  auto [destinations, pictures] = or_tell(words, [&] { return places_of(asked); });
   const Answered done =
-      answer_for(line, stop, destinations);  // destroyed after the answer is printed
+      answer_for(asked, stop, destinations);  // destroyed after the answer is printed
   std::string not_written = destinations.write(done.answer);
   const std::string not_drawn = pictures.write(done);
   if (!not_drawn.empty()) not_written += (not_written.empty() ? "" : "; ") + not_drawn;
@@ -130,12 +128,14 @@ int printed(ExitCode code) {
 }
 
 /// Examines, and writes what was found where JSON was asked for, even if the doctor could not end.
-bool examine_and_write(const CommandLine& line) {
-  const bool is_json = line.outputs.json;
-  if (!is_json && !line.outputs.json_file) return examine_devices(std::cout, line.device, nullptr);
+bool examine_and_write(const Request& asked) {
+  const Outputs& outputs = asked.outputs;
+  const std::string& device = asked.question.device;
+  const bool is_json = outputs.json;
+  if (!is_json && !outputs.json_file) return examine_devices(std::cout, device, nullptr);
   std::optional<OutputFile> file;
-  if (line.outputs.json_file)
-    file.emplace("--json", *line.outputs.json_file, std::vector<std::string>());
+  if (outputs.json_file)
+    file.emplace("--json", *outputs.json_file, std::vector<std::string>());
   Json json;
   const auto write = [&] {
     const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
@@ -144,7 +144,7 @@ bool examine_and_write(const CommandLine& line) {
   };
   std::ostringstream unseen;
   try {
-    const bool passed = examine_devices(is_json ? unseen : std::cout, line.device, &json);
+    const bool passed = examine_devices(is_json ? unseen : std::cout, device, &json);
     write();
     return passed;
   } catch (const DeviceError&) {
@@ -153,8 +153,8 @@ bool examine_and_write(const CommandLine& line) {
   }
 }
 
-int run_doctor(const CommandLine& line) {
-  const bool passed = examine_and_write(line);
+int run_doctor(const Request& asked) {
+  const bool passed = examine_and_write(asked);
   check_printed();
   if (!passed) throw DeviceError("the self-check failed: do not trust this device or driver");
   return kExitClosed;
@@ -162,29 +162,18 @@ int run_doctor(const CommandLine& line) {
 
 int run(const Words& words, Clock::time_point start) {
   const CommandLine line = or_tell(words, [&] { return understand(words); });
-  switch (line.command) {
-    case Command::kHelp:
-      std::cout << line.help;
-      check_printed();
-      return kExitClosed;
-    case Command::kDoctor:
-      return run_doctor(line);
-    case Command::kBatch:
-      note_interrupts();
-      return printed(run_batch_command(line.question, line.batch));
-    case Command::kMerge:
-      return printed(run_merge_command(line.merge));
-    case Command::kSimplify:
-      note_interrupts();
-      return printed(run_simplify_command(line, Stop(start, line.time_limit_s)));
-    case Command::kDistance:
-    case Command::kGate:
-    case Command::kMetrics:
-    case Command::kDemo:
-      break;
+  if (!line.help.empty()) {
+    std::cout << line.help;
+    return printed(kExitClosed);
   }
+  const Request& asked = line.asked;
+  if (asked.command == kDoctor) return run_doctor(asked);
+  if (asked.command == kMerge) return printed(run_merge_command(asked.many));
   note_interrupts();
-  return run_pair(line, words, Stop(start, line.time_limit_s));
+  const Stop stop(start, asked.time_limit_s);
+  if (asked.command == kBatch) return printed(run_batch_command(asked));
+  if (asked.command == kSimplify) return printed(run_simplify_command(asked, stop));
+  return run_pair(asked, words, stop);
 }
 
 int run_and_catch(const Words& words, Clock::time_point start) {

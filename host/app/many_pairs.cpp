@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <set>
+#include <tuple>
 
 #include "host/answer/merge.h"
 #include "host/answer/merge_parts.h"
@@ -40,7 +41,7 @@ std::string worst_first(std::vector<std::pair<Rank, std::string>> rows) {
 /// The CSV and JUnit XML of results, checked before the work.
 class Tables {
  public:
-  Tables(const TablesAsked& asked, const std::vector<std::string>& inputs) {
+  Tables(const ManyRequest& asked, const std::vector<std::string>& inputs) {
     if (asked.csv) csv_.emplace("--csv", *asked.csv, inputs);
     if (asked.junit) junit_.emplace("--junit", *asked.junit, inputs);
   }
@@ -69,27 +70,28 @@ class Tables {
   std::optional<OutputFile> csv_, junit_;
 };
 
-PairList list_of(const BatchAsked& asked, const Question& question) {
-  if (!asked.folder_a.empty())
-    return list_folders({asked.folder_a, question.points_a}, {asked.folder_b, question.points_b});
-  return asked.against.empty() ? read_list(asked.list) : list_against(asked.against, asked.parts);
+PairList list_of(const Request& asked) {
+  const auto& [files, against] = std::tie(asked.many.files, asked.many.against);
+  if (!against.empty()) return list_against(against, files);
+  if (files.size() == 1) return read_list(files[0]);
+  return list_folders({files[0], asked.question.points_a}, {files[1], asked.question.points_b});
 }
 
 /// Refuses a file that is named twice: it would be read while it is written.
-void check_outputs(const std::string& results, const TablesAsked& tables) {
-  if (results == "-")
+void check_outputs(const ManyRequest& asked) {
+  if (asked.results == "-")
     throw UsageError("--out '-': expected the name of a file; one that is called so is ./-");
-  std::set<std::filesystem::path> places{place_of(results)};
-  for (const auto& other : {tables.csv, tables.junit}) {
+  std::set<std::filesystem::path> places{place_of(asked.results)};
+  for (const auto& other : {asked.csv, asked.junit}) {
     if (other && !places.insert(place_of(*other)).second)
       throw UsageError("two outputs would be written to '" + *other + "'");
   }
 }
 
 /// Names the shard's files without a partner. Unless they are allowed, each is a failure.
-void take_unpaired(const BatchAsked& asked, PairList& list, BatchJob& batch) {
+void take_unpaired(const ManyRequest& asked, PairList& list, BatchJob& batch) {
   for (Entry& entry : list.unpaired) {
-    if (!asked.shard.has(entry.id)) continue;
+    if (!is_in(asked.shard, entry.id)) continue;
     warn(entry.one_file() + ": " + entry.missing);
     if (asked.allows_unpaired) {
       ++batch.unpaired;
@@ -99,12 +101,12 @@ void take_unpaired(const BatchAsked& asked, PairList& list, BatchJob& batch) {
   }
 }
 
-std::vector<std::string> inputs_of(const BatchAsked& asked, const std::vector<Entry>& entries) {
+std::vector<std::string> inputs_of(const ManyRequest& asked, const std::vector<Entry>& entries) {
   std::vector<std::string> inputs;
   const auto add = [&](const std::string& file) {
     if (!file.empty()) inputs.push_back(file);
   };
-  add(asked.list.empty() ? asked.against : asked.list);
+  add(asked.files.size() == 1 ? asked.files[0] : asked.against);
   for (const Entry& entry : entries) {
     add(entry.file_a);
     add(entry.file_b);
@@ -112,20 +114,22 @@ std::vector<std::string> inputs_of(const BatchAsked& asked, const std::vector<En
   return inputs;
 }
 
-BatchJob batch_of(const Question& question, const BatchAsked& asked, PairList& list) {
+BatchJob batch_of(const Request& request, PairList& list) {
+  const ManyRequest& asked = request.many;
+  const Question& question = request.question;
   BatchJob batch;
-  batch.question = question;
-  batch.question.options.time_limit_s = asked.time_limit_s;
+  batch.asked = request;
+  batch.asked.question.max_distance.reset();  // it is of what is drawn
   batch.shared = shared_files(list.entries);
   for (Entry& entry : list.entries) {
-    if (asked.shard.has(entry.id)) batch.entries.push_back(std::move(entry));
+    if (is_in(asked.shard, entry.id)) batch.entries.push_back(std::move(entry));
   }
   take_unpaired(asked, list, batch);
   batch.results = asked.results;
   batch.resumes = asked.resumes;
   batch.fails_fast = asked.fails_fast;
   batch.devices = asked.devices;
-  batch.devices.devices = selectors_of(asked.device);
+  batch.devices.devices = selectors_of(question.device);
   if (question.caches) batch.devices.cache_folder = user_cache_folder();
   batch.devices.first = question.options;
   batch.read_ahead_bytes = asked.read_ahead_bytes;
@@ -133,14 +137,15 @@ BatchJob batch_of(const Question& question, const BatchAsked& asked, PairList& l
 }
 
 /// Returns null if no folders were asked for.
-std::shared_ptr<BatchFolders> folders_of(const BatchAsked& asked, const std::vector<Entry>& entries,
+std::shared_ptr<BatchFolders> folders_of(const Request& asked, const std::vector<Entry>& entries,
                                          std::vector<std::string> taken) {
-  if (!asked.folders.any()) return nullptr;
-  taken.push_back(asked.results);
-  for (const auto& table : {asked.tables.csv, asked.tables.junit}) {
+  const ManyRequest& many = asked.many;
+  if (!many.image_folder && !many.report_folder) return nullptr;
+  taken.push_back(many.results);
+  for (const auto& table : {many.csv, many.junit}) {
     if (table) taken.push_back(*table);
   }
-  return std::make_shared<BatchFolders>(asked.folders, entries, taken);
+  return std::make_shared<BatchFolders>(asked, entries, taken);
 }
 
 /// Reports the pairs that were not drawn, and writes the indexes.
@@ -151,7 +156,7 @@ ExitCode write_indexes(const BatchJob& batch) {
   for (size_t i = 0; i < std::min(failures.size(), kMost); ++i) note(failures[i]);
   if (failures.size() > kMost)
     note("and " + std::to_string(failures.size() - kMost) + " more pairs are not drawn");
-  folders.write_indexes(batch.results, batch.entries, batch.question.max.has_value());
+  folders.write_indexes(batch.results, batch.entries, batch.asked.question.max.has_value());
   for (const std::string& file : folders.indexes())
     std::cout << "  index      " << printable(file) << '\n';
   if (!failures.empty()) return kExitNotWritten;
@@ -175,19 +180,20 @@ ExitCode tell_github(const BatchJob& batch) {
   return kExitClosed;
 }
 
-ExitCode run_asked_batch(const Question& question, const BatchAsked& asked) {
-  check_outputs(asked.results, asked.tables);
+ExitCode run_asked_batch(const Request& request) {
+  const ManyRequest& asked = request.many;
+  check_outputs(asked);
   // Lines would be added to the list, and a last one without an end would be cut off.
+  const std::string& first = asked.files.front();
   std::error_code none;
-  if (std::filesystem::equivalent(path_of(asked.list), path_of(asked.results), none))
-    throw UsageError("--out '" + asked.results + "': would overwrite the input '" + asked.list +
-                     "'");
-  PairList list = list_of(asked, question);
+  if (std::filesystem::equivalent(path_of(first), path_of(asked.results), none))
+    throw UsageError("--out '" + asked.results + "': would overwrite the input '" + first + "'");
+  PairList list = list_of(request);
   for (const std::string& text : list.notes) note(text);
-  BatchJob batch = batch_of(question, asked, list);
+  BatchJob batch = batch_of(request, list);
   const std::vector<std::string> inputs = inputs_of(asked, batch.entries);
-  const Tables tables(asked.tables, inputs);
-  batch.folders = folders_of(asked, batch.entries, inputs);
+  const Tables tables(asked, inputs);
+  batch.folders = folders_of(request, batch.entries, inputs);
   ExitCode code = run_batch(batch, std::cout);
   if (tables.is_any()) {
     Results results;
@@ -195,17 +201,17 @@ ExitCode run_asked_batch(const Question& question, const BatchAsked& asked) {
     tables.write(results, true);
   }
   if (batch.folders) code = worse(code, write_indexes(batch));
-  return asked.github ? worse(code, tell_github(batch)) : code;
+  return request.outputs.github ? worse(code, tell_github(batch)) : code;
 }
 
 }  // namespace
 
-ExitCode run_batch_command(const Question& question, const BatchAsked& asked) {
+ExitCode run_batch_command(const Request& asked) {
   try {
-    return run_asked_batch(question, asked);
+    return run_asked_batch(asked);
   } catch (...) {
     const Failure failure = failure_of(error_of(std::current_exception()));
-    if (asked.github) std::cout << github_annotation(failure) << std::flush;
+    if (asked.outputs.github) std::cout << github_annotation(failure) << std::flush;
     throw;
   }
 }
@@ -214,8 +220,8 @@ namespace {
 
 /// Merges the parts of one pair, measured apart. The answer is one line, like that of `distance
 /// --json`.
-ExitCode merge_all_parts(const MergeAsked& asked, const std::vector<WrittenAnswer>& parts) {
-  if (!asked.list.empty() || asked.reproducible || asked.tables.csv || asked.tables.junit)
+ExitCode merge_all_parts(const ManyRequest& asked, const std::vector<WrittenAnswer>& parts) {
+  if (!asked.list.empty() || asked.reproducible || asked.csv || asked.junit)
     throw UsageError(
         "merge: the parts of one pair make one answer: no --list, --reproducible, "
         "--csv or --junit");
@@ -229,14 +235,14 @@ ExitCode merge_all_parts(const MergeAsked& asked, const std::vector<WrittenAnswe
 
 }  // namespace
 
-ExitCode run_merge_command(const MergeAsked& asked) {
-  check_outputs(asked.results, asked.tables);
+ExitCode run_merge_command(const ManyRequest& asked) {
+  check_outputs(asked);
   if (const auto parts = read_parts(asked.files); !parts.empty())
     return merge_all_parts(asked, parts);
   std::vector<std::string> inputs = asked.files;
   if (!asked.list.empty()) inputs.push_back(asked.list);
   const OutputFile out("--out", asked.results, inputs);
-  const Tables tables(asked.tables, inputs);
+  const Tables tables(asked, inputs);
   Results results;
   for (const std::string& file : asked.files) results.add(file);
   std::string text;

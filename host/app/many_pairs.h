@@ -2,12 +2,12 @@
 #pragma once
 
 #include "host/answer/exit_code.h"
-#include "host/app/arguments.h"
+#include "host/answer/request.h"
 
 namespace vkh {
 
 /// Throw what run_batch() and Results throw. Notes go to stderr.
-ExitCode run_batch_command(const Question& question, const BatchAsked& asked);
-ExitCode run_merge_command(const MergeAsked& asked);
+ExitCode run_batch_command(const Request& asked);
+ExitCode run_merge_command(const ManyRequest& asked);
 
 }  // namespace vkh

@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "host/answer/exit_code.h"
-#include "host/answer/options.h"
+#include "host/answer/quantities.h"
 #include "host/answer/simplified.h"
 #include "host/base/system.h"
 #include "vkhausdorff/error.h"
@@ -28,14 +28,14 @@ Outputs outputs_in(const Words& words, Words& others) {
     } else if (word.starts_with("--json=")) {
       outputs.json_file = word.substr(7);
     } else if (word.starts_with("--junit=")) {
-      outputs.junit_file = word.substr(8);
+      outputs.junit = word.substr(8);
     } else if (word == "--junit" && i + 1 < words.size()) {
-      outputs.junit_file = words[++i];
+      outputs.junit = words[++i];
     } else {
       others.push_back(word.starts_with("--") ? word.substr(word.find('=') + 1) : word);
     }
   }
-  if (outputs.junit_file == outputs.json_file) outputs.junit_file.reset();
+  if (outputs.junit == outputs.json_file) outputs.junit.reset();
   return outputs;
 }
 
@@ -76,16 +76,16 @@ std::string placed_text(const Answer& answer) {
 }  // namespace
 
 Destinations::Destinations(const Outputs& outputs, const std::vector<std::string>& inputs,
-                           std::string name)
-    : outputs_(outputs), name_(std::move(name)) {
+                           std::string name, bool is_verbose)
+    : outputs_(outputs), name_(std::move(name)), is_verbose_(is_verbose) {
   std::vector<std::string> taken;
   for (const std::string& input : inputs) {
     if (!input.empty()) taken.push_back(input);
   }
   if (outputs.json_file) json_.emplace("--json", *outputs.json_file, taken);
-  if (outputs.junit_file) junit_.emplace("--junit", *outputs.junit_file, taken);
-  if (outputs.transform_file)
-    transform_.emplace("--save-transform", *outputs.transform_file, taken);
+  if (outputs.junit) junit_.emplace("--junit", *outputs.junit, taken);
+  if (outputs.transform)
+    transform_.emplace("--save-transform", *outputs.transform, taken);
 }
 
 std::string Destinations::write(const Answer& answer) {
@@ -106,7 +106,7 @@ std::string Destinations::write(const Answer& answer) {
   if (outputs_.json) {
     std::cout << to_json(answer) << '\n';
   } else {
-    print_table(std::cout, answer, outputs_.verbose);
+    print_table(std::cout, answer, is_verbose_);
   }
   std::cout.flush();
   return not_written;
@@ -143,7 +143,7 @@ void tell_misuse(const Words& words, const UsageError& error) {
     return;
   Words others;
   const Outputs outputs = outputs_in(words, others);
-  for (const std::optional<std::string>& file : {outputs.json_file, outputs.junit_file}) {
+  for (const std::optional<std::string>& file : {outputs.json_file, outputs.junit}) {
     if (file && std::find(others.begin(), others.end(), *file) != others.end()) return;
   }
   const Failure failure = failure_of(error);

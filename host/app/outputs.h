@@ -7,6 +7,7 @@
 
 #include "host/app/arguments.h"
 #include "host/base/output_file.h"
+#include "vkhausdorff/answer.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -15,8 +16,9 @@ namespace vkh {
 class Destinations {
  public:
   /// Throws UsageError if a file cannot be written, or is one of `inputs`. `name`: of the test
-  /// case.
-  Destinations(const Outputs& outputs, const std::vector<std::string>& inputs, std::string name);
+  /// case. `is_verbose`: of the table.
+  Destinations(const Outputs& outputs, const std::vector<std::string>& inputs, std::string name,
+               bool is_verbose = false);
 
   /// Prints the answer first, whatever becomes of a file: a reader of standard output may close it
   /// early, and that ends the program. Returns what could not be written, and why; empty if
@@ -31,6 +33,7 @@ class Destinations {
  private:
   Outputs outputs_;
   std::string name_;
+  bool is_verbose_;
   std::optional<OutputFile> json_, junit_, transform_;
 };
 

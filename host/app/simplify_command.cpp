@@ -35,12 +35,12 @@ struct Written {
 };
 
 /// The name of a chain's level, from 1: B-1.ply.
-std::string path_of_level(const SimplifyAsked& asked, size_t level) {
+std::string path_of_level(const SimplifyRequest& asked, size_t level) {
   const size_t stem = asked.out.size() - 4;
   return asked.out.substr(0, stem) + "-" + std::to_string(level) + asked.out.substr(stem);
 }
 
-std::vector<std::string> paths_of(const SimplifyAsked& asked) {
+std::vector<std::string> paths_of(const SimplifyRequest& asked) {
   if (asked.levels == 0) return {asked.out};
   std::vector<std::string> paths;
   for (size_t level = 1; level <= asked.levels; ++level)
@@ -49,7 +49,7 @@ std::vector<std::string> paths_of(const SimplifyAsked& asked) {
 }
 
 /// Refuses to write a chain beside further levels of another one, which would be taken for its own.
-void check_further_levels(const SimplifyAsked& asked) {
+void check_further_levels(const SimplifyRequest& asked) {
   if (asked.levels == 0) return;
   const std::string further = path_of_level(asked, asked.levels + 1);
   std::error_code none;
@@ -60,8 +60,11 @@ void check_further_levels(const SimplifyAsked& asked) {
 
 class SimplifyCommand {
  public:
-  SimplifyCommand(const CommandLine& line, const Stop& stop)
-      : question_(line.question), asked_(line.simplify), outputs_(line.outputs), stop_(stop) {}
+  SimplifyCommand(const Request& asked, const Stop& stop)
+      : question_(asked.question),
+        asked_(asked.simplify),
+        outputs_(asked.outputs),
+        stop_(stop) {}
 
   /// Throws UsageError for files that cannot be written.
   void check_places() { places_ = places(); }
@@ -79,10 +82,9 @@ class SimplifyCommand {
   void prove_it(const Written& written, const OutputFile& place);
   void remove_stale(size_t written);
   void tell();
-  bool hashes() const { return outputs_.json || outputs_.json_file || !asked_.certificate.empty(); }
 
   const Question& question_;
-  const SimplifyAsked& asked_;
+  const SimplifyRequest& asked_;
   const Outputs& outputs_;
   const Stop& stop_;
   ProgressLine line_;
@@ -109,7 +111,7 @@ SimplifyPlaces SimplifyCommand::places() const {
       throw UsageError("--out '" + path +
                        "': expected a file, for the result is read back before it has its name");
   }
-  if (!asked_.certificate.empty()) places.certificate = open("--certificate", asked_.certificate);
+  if (outputs_.certificate) places.certificate = open("--certificate", *outputs_.certificate);
   if (outputs_.json_file) places.json = open("--json", *outputs_.json_file);
   return places;
 }
@@ -129,7 +131,7 @@ void SimplifyCommand::read() {
                    .counts = a_.counts,
                    .place = {a_.delta, a_.unit},
                    .notes = a_.notes};
-  if (hashes())
+  if (question_.hashes)
     answer_.input.sha256 =
         sha256_of(path_of(question_.file_a), [this] { return !stop_.is_asked(); });
   answer_.waits.read = stop_.elapsed_s() * 1000;
@@ -191,7 +193,7 @@ Written SimplifyCommand::write(const Mesh& mesh, const OutputFile& place, const 
       throw OutputError({.option = "--out",
                          .file = path,
                          .problem = "is farther from A as it is read back than as it was found"});
-    if (hashes()) written.file.sha256 = sha256_of(path_of(file), [] { return !is_interrupted(); });
+    if (question_.hashes) written.file.sha256 = sha256_of(path_of(file), [] { return !is_interrupted(); });
   };
   place.write(to_mesh_file(mesh, format), measure);
   if (written.mesh.faces.empty()) measure(path);  // it was written over: its folder is not ours
@@ -210,7 +212,7 @@ void SimplifyCommand::prove_it(const Written& written, const OutputFile& place) 
   if (back) reverse.emplace(CertifiedDirection{*d.b_to_a, *back});
   place.write(certificate_of({a_, answer_.input.sha256}, {written.mesh, written.file.sha256},
                              {d.a_to_b, there}, reverse));
-  answer_.certificate = asked_.certificate;
+  answer_.certificate = outputs_.certificate.value_or("");
 }
 
 /// Removes the files of an earlier chain that this one was to write over and has no level for: they
@@ -285,12 +287,12 @@ ExitCode SimplifyCommand::run() {
 
 }  // namespace
 
-ExitCode run_simplify_command(const CommandLine& line, const Stop& stop) {
-  SimplifyCommand command(line, stop);
+ExitCode run_simplify_command(const Request& asked, const Stop& stop) {
+  SimplifyCommand command(asked, stop);
   try {
     command.check_places();
   } catch (const UsageError& error) {
-    tell_misuse(line.question.words, error);
+    tell_misuse(asked.question.words, error);
     throw;
   }
   try {

@@ -3,13 +3,13 @@
 
 #include "host/answer/exit_code.h"
 #include "host/answer/stop.h"
-#include "host/app/arguments.h"
+#include "host/answer/request.h"
 
 namespace vkh {
 
 /// Prints the answer. Returns kExitClosed if a mesh was written, kExitNotClosed if none was found.
 /// Throws what reading, Device, Solver and OutputFile throw, and writes it as JSON before that, if
 /// JSON was asked for.
-ExitCode run_simplify_command(const CommandLine& line, const Stop& stop);
+ExitCode run_simplify_command(const Request& asked, const Stop& stop);
 
 }  // namespace vkh

@@ -35,7 +35,7 @@ Failure failure_of(const std::exception_ptr& thrown, const Entry& entry) {
 
 StreamOptions stream_of(const BatchJob& job) {
   StreamOptions options = job.devices;
-  options.surveys = job.folders != nullptr || job.question.asks_for_survey();
+  options.surveys = job.folders != nullptr || job.asked.question.asks_for_survey();
   return options;
 }
 
@@ -45,7 +45,7 @@ class Batch {
       : job_(job),
         file_("--out", job.results, inputs_of(job)),
         budget_(job.read_ahead_bytes != 0 ? job.read_ahead_bytes : kReadAhead),
-        reader_(job.question, job.shared, [this] { return goes_on(); }) {
+        reader_(job.asked, job.shared, [this] { return goes_on(); }) {
     keep_older_lines();
     stream_ = std::make_unique<PairStream>(
         stream_of(job_), [this](StreamResult&& result) { take(std::move(result)); });
@@ -140,7 +140,7 @@ class Batch {
                         .device = stream_->times(),
                         .devices = stream_->devices(),
                         .results = job_.results,
-                        .has_limit = job_.question.max.has_value(),
+                        .has_limit = job_.asked.question.max.has_value(),
                         .unpaired = job_.unpaired});
     out.flush();
   }

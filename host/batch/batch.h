@@ -14,7 +14,7 @@
 namespace vkh {
 
 struct BatchJob {
-  Question question;             ///< what is asked of each; options.time_limit_s is per pair
+  Request asked;                 ///< its question is asked of each, and its time is per pair
   std::vector<Entry> entries;    ///< the pairs of this shard
   size_t unpaired = 0;           ///< files without a partner that are no entries
   std::set<std::string> shared;  ///< shared_files() of the whole list

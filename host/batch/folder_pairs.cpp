@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "host/answer/json_text.h"
 #include "host/base/system.h"
 #include "host/batch/list.h"
 #include "vkhausdorff/error.h"

@@ -89,7 +89,7 @@ GithubTexts github_texts(const BatchJob& batch) {
             [](const OfPair& x, const OfPair& y) { return is_worse(x.rank, y.rank); });
   Totals::Run run;
   run.left = entries.size() - totals.pairs();
-  run.has_limit = batch.question.max.has_value();
+  run.has_limit = batch.asked.question.max.has_value();
   run.unpaired = batch.unpaired;
   const std::string words = totals.in_words(run);
   GithubTexts texts{

@@ -9,11 +9,12 @@
 #include <unordered_map>
 
 #include "host/answer/csv.h"
+#include "host/answer/json_text.h"
+#include "host/answer/name_meant.h"
+#include "host/answer/option_values.h"
 #include "host/base/byte_order_mark.h"
-#include "host/base/closest_name.h"
 #include "host/base/id_hash.h"
 #include "host/base/meant.h"
-#include "host/base/parse_number.h"
 #include "host/base/reject.h"
 #include "host/base/system.h"
 #include "vkhausdorff/error.h"
@@ -21,108 +22,49 @@
 namespace vkh {
 namespace {
 
-/// A member of a list's row: its name, and the member of Entry that takes it, as text or as a
-/// truth.
-struct Column {
+/// A column that each row has.
+struct NamedColumn {
   const char* name;
-  std::string Entry::*text = nullptr;
-  std::optional<bool> Entry::*truth = nullptr;
+  std::string Entry::*text;
 };
-constexpr std::array kColumns{Column{"id", &Entry::id},
-                              Column{"a", &Entry::a},
-                              Column{"b", &Entry::b},
-                              Column{"tol", &Entry::tolerance},
-                              Column{"max", &Entry::max},
-                              Column{"unit", &Entry::unit},
-                              Column{"unit_a", &Entry::unit_a},
-                              Column{"unit_b", &Entry::unit_b},
-                              Column{"transform", &Entry::transform},
-                              Column{"align", nullptr, &Entry::align},
-                              Column{"points", &Entry::points},
-                              Column{"symmetric", nullptr, &Entry::symmetric},
-                              Column{"signed", nullptr, &Entry::is_signed}};
-constexpr size_t kNeeded = 3;  // the first ones
+constexpr std::array kNeeded{NamedColumn{"id", &Entry::id}, NamedColumn{"a", &Entry::a},
+                             NamedColumn{"b", &Entry::b}};
 
-std::string lower_word(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+std::string Entry::*needed(const std::string& name) {
+  const auto* const found = std::find_if(kNeeded.begin(), kNeeded.end(),
+                                         [&](const NamedColumn& c) { return name == c.name; });
+  return found == kNeeded.end() ? nullptr : found->text;
 }
 
-/// A name that people give to a column, in lower case and without blanks, and ours.
-struct Synonym {
-  const char* name;
-  const char* meant;
-};
-constexpr std::array kSynonyms{Synonym{"limit", "max"},          Synonym{"maximum", "max"},
-                               Synonym{"threshold", "max"},      Synonym{"maxdistance", "max"},
-                               Synonym{"maxdeviation", "max"},   Synonym{"tolerance", "max or tol"},
-                               Synonym{"bothways", "symmetric"}, Synonym{"matrix", "transform"},
-                               Synonym{"sign", "signed"},        Synonym{"aligned", "align"},
-                               Synonym{"pointcloud", "points"}};
-
-/// Leaves the letters and digits of a name, in lower case.
-std::string letters_of(const std::string& name) {
-  std::string letters = lower_word(name);
-  std::erase_if(letters, [](char c) {
-    return std::string_view(" \t_-.()[]:").find(c) != std::string_view::npos;
-  });
-  return letters;
-}
-
-/// A length's column with its unit, such as "max (mm)".
-bool is_with_unit(const std::string& letters, const std::string& column) {
-  if (!letters.starts_with(column) || (column != "max" && column != "tol")) return false;
-  const std::string unit = letters.substr(column.size());
-  return !unit.empty() && unit_meant(unit) == unit;
-}
-
-/// Returns the column that a name which is none may mean, such as max for Max, maxx and limit; else
-/// nothing.
-std::string column_meant(const std::string& name) {
-  const std::string letters = letters_of(name);
-  for (const Column& column : kColumns) {
-    const std::string known = letters_of(column.name);
-    if (letters == known || is_with_unit(letters, known)) return column.name;
+/// Returns the column that a name which is none may mean; else nothing.
+std::string meant_by(const std::string& name) {
+  std::vector<KnownName> known;
+  for (const NamedColumn& column : kNeeded) known.push_back({.name = column.name});
+  for (const Option& option : options()) {
+    if (!option.is_column) continue;
+    const bool has_unit = option.kind == Kind::kLength || option.kind == Kind::kTolerance;
+    known.push_back({column_name(option), option.also, has_unit});
   }
-  for (const Synonym& synonym : kSynonyms) {
-    if (letters == synonym.name) return synonym.meant;
-  }
-  // One letter too many at the end is a slip, of short names the only one: mat and map are not max,
-  // nor is tool tol.
-  std::vector<std::string> names;
-  for (const Column& column : kColumns) {
-    const std::string known = letters_of(column.name);
-    if (known.size() >= 3 && letters.starts_with(known) && letters.size() == known.size() + 1)
-      return column.name;
-    if (known.size() > 3) names.push_back(known);
-  }
-  const std::vector<std::string> near = closest_names(letters, names, 1);
-  const auto* const column = std::find_if(kColumns.begin(), kColumns.end(), [&](const Column& c) {
-    return !near.empty() && letters_of(c.name) == near.front();
-  });
-  return column == kColumns.end() ? "" : column->name;
-}
-
-// Accepts TRUE too, as spreadsheets write it.
-bool truth_of(const std::string& name, const std::string& text) {
-  const std::string word = lower_word(text);
-  if (word == "true" || word == "1" || word == "yes") return true;
-  if (word == "false" || word == "0" || word == "no") return false;
-  throw InputError("'" + text + "': expected true or false for " + name);
+  return name_meant(name, known);
 }
 
 /// Returns false for a member that a batch does not know.
 bool put(Entry& entry, const std::string& name, const std::string& text) {
-  const auto* const column = std::find_if(kColumns.begin(), kColumns.end(),
-                                          [&](const Column& c) { return name == c.name; });
-  if (column == kColumns.end()) return false;
-  if (column->text != nullptr) {
-    entry.*column->text = text;
-  } else if (!text.empty()) {
-    entry.*column->truth = truth_of(name, text);
+  if (const auto member = needed(name); member != nullptr) {
+    entry.*member = text;
+    return true;
   }
+  const Option* option = column_of(name);
+  if (option == nullptr || text.empty()) return option != nullptr;
+  if (option->kind == Kind::kFlag) check_truth(name, text);
+  entry.options.emplace_back(option, text);
   return true;
+}
+
+bool is_named_csv(std::string path) {
+  std::transform(path.begin(), path.end(), path.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return path.ends_with(".csv");
 }
 
 /// The folder that a list's names start from: a pipe's (/dev/fd/63) is not its writer's.
@@ -139,9 +81,9 @@ class Collected {
   explicit Collected(std::string path) : path_(std::move(path)), folder_(folder_of_list(path_)) {}
 
   void take(Entry entry, uint64_t line) {
-    for (size_t i = 0; i < kNeeded; ++i) {
-      if ((entry.*kColumns[i].text).empty())
-        refuse(line, std::string("no ") + kColumns[i].name + "; expected " + list_columns());
+    for (const NamedColumn& column : kNeeded) {
+      if ((entry.*column.text).empty())
+        refuse(line, std::string("no ") + column.name + "; expected " + list_columns());
     }
     // A result could not hold such an id: two of them might become one there.
     if (!is_utf8(entry.id)) refuse(line, "the id '" + entry.id + "' is no UTF-8");
@@ -150,12 +92,14 @@ class Collected {
       refuse(line, "the id '" + entry.id + "' is that of line " + std::to_string(known->second));
     entry.file_a = name_of(folder_ / path_of(entry.a));
     entry.file_b = name_of(folder_ / path_of(entry.b));
-    if (!entry.transform.empty()) entry.transform = name_of(folder_ / path_of(entry.transform));
+    for (auto& [option, text] : entry.options) {
+      if (option->kind == Kind::kInput) text = name_of(folder_ / path_of(text));
+    }
     list.entries.push_back(std::move(entry));
   }
   /// Refuses a name that nearly is one of ours: a limit that is passed over gives no verdict.
   void note_stranger(const std::string& name, uint64_t line) {
-    const std::string meant = column_meant(name);
+    const std::string meant = meant_by(name);
     if (!meant.empty())
       refuse(line, "'" + name + "': did you mean " + meant + "? expected " + list_columns());
     if (strangers_.insert(name).second)
@@ -175,8 +119,7 @@ class Collected {
 };
 
 bool is_column(const std::string& name) {
-  return std::any_of(kColumns.begin(), kColumns.end(),
-                     [&](const Column& column) { return name == column.name; });
+  return needed(name) != nullptr || column_of(name) != nullptr;
 }
 
 // Requires each of the three columns once, and no name that nearly is a column's.
@@ -184,8 +127,8 @@ void check_heading(const std::vector<std::string>& heading, uint64_t line, Colle
   for (const std::string& name : heading) {
     if (!is_column(name)) to.note_stranger(name, line);
   }
-  for (size_t i = 0; i < kNeeded; ++i) {
-    const char* const name = kColumns[i].name;
+  for (const NamedColumn& column : kNeeded) {
+    const char* const name = column.name;
     const auto times = std::count(heading.begin(), heading.end(), name);
     if (times == 1) continue;
     to.refuse(line, std::string(times == 0 ? "no" : "more than one") + " column '" + name +
@@ -197,7 +140,9 @@ void check_heading(const std::vector<std::string>& heading, uint64_t line, Colle
 /// Refuses a decimal comma, which spreadsheets write where they separate by semicolons: 1,000mm may
 /// be one or a thousand. A comma before a sign is between limits of two sides.
 void check_decimal_point(const std::string& name, const std::string& text, char separator) {
-  const bool is_length = name == "tol" || name == "max";
+  const Option* option = column_of(name);
+  const bool is_length = option != nullptr && (option->kind == Kind::kLength ||
+                                               option->kind == Kind::kTolerance);
   const size_t comma = text.find(',');
   if (separator != ';' || !is_length || comma == std::string::npos) return;
   const size_t behind = text.find_first_not_of(' ', comma + 1);
@@ -274,18 +219,13 @@ void read_jsonl(std::istream& text, Collected& to) {
 
 std::string list_columns() {
   std::string text;
-  for (size_t i = 0; i < kColumns.size(); ++i)
-    text += (i == 0 ? "" : i == kNeeded ? " and perhaps " : ", ") + std::string(kColumns[i].name);
-  return text;
-}
-
-bool is_utf8(const std::string& text) {
-  try {
-    (void)nlohmann::json(text).dump();
-    return true;
-  } catch (const nlohmann::json::type_error&) {
-    return false;
+  for (const NamedColumn& column : kNeeded)
+    text.append(text.empty() ? "" : ", ").append(column.name);
+  const char* between = " and perhaps ";
+  for (const Option& option : options()) {
+    if (option.is_column) text.append(std::exchange(between, ", ")).append(column_name(option));
   }
+  return text;
 }
 
 PairList read_list(const std::string& path) {
@@ -298,7 +238,7 @@ PairList read_list(const std::string& path) {
   if (!file) reject(path, "", "cannot be read", "a list of pairs");
   Collected collected(path);
   skip_byte_order_mark(file, path);
-  if (lower_word(path).ends_with(".csv")) {
+  if (is_named_csv(path)) {
     read_csv(file, collected);
   } else {
     read_jsonl(file, collected);
@@ -322,18 +262,8 @@ PairList list_against(const std::string& b, const std::vector<std::string>& part
   return list;
 }
 
-bool Shard::has(const std::string& id) const { return hash_of_id(id) % count == index; }
-
-Shard parse_shard(const std::string& text) {
-  const size_t slash = text.find('/');
-  Shard shard;
-  const bool is_read = slash != std::string::npos &&
-                       parse_number(text.substr(0, slash), shard.index) &&
-                       parse_number(text.substr(slash + 1), shard.count);
-  if (!is_read || shard.index >= shard.count)
-    throw UsageError("--shard '" + text +
-                     "': expected i/n with i from 0 and under n, such as 3/64");
-  return shard;
+bool is_in(const PartOf& shard, const std::string& id) {
+  return hash_of_id(id) % shard.count == shard.index;
 }
 
 }  // namespace vkh

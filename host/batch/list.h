@@ -2,22 +2,21 @@
 // as two folders have them.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "host/answer/options_table.h"
 
 namespace vkh {
 
-/// A pair. An empty member takes the batch's value.
+/// A pair. What it does not ask for itself is the batch's.
 struct Entry {
   std::string id;
   std::string a, b;            ///< the names in the list, for people
   std::string file_a, file_b;  ///< the paths that open from here
-  std::string tolerance, max, unit, unit_a, unit_b;
-  std::string transform;  ///< a matrix's path that opens from here
-  std::string points;     ///< a, b or both
-  std::optional<bool> symmetric, is_signed, align;
+  /// What its row asks for itself: an option, and its text.
+  std::vector<std::pair<const Option*, std::string>> options;
   /// The error of a file without a partner; empty: there is a pair.
   std::string missing = {};
   const std::string& one_file() const { return file_a.empty() ? file_b : file_a; }
@@ -53,16 +52,7 @@ struct FolderOfFiles {
 /// InputError if two meshes of a folder have one stem, or no mesh has a partner.
 PairList list_folders(const FolderOfFiles& a, const FolderOfFiles& b);
 
-/// Whether a result line can hold the id.
-bool is_utf8(const std::string& text);
-
-/// Shard i of n, from 0.
-struct Shard {
-  uint64_t index = 0, count = 1;
-  /// Depends on the id alone: its hash modulo n.
-  bool has(const std::string& id) const;
-};
-/// Parses a shard such as "3/64". Throws UsageError.
-Shard parse_shard(const std::string& text);
+/// Whether a pair is in this part of a list. It depends on the id alone: its hash modulo the count.
+bool is_in(const PartOf& shard, const std::string& id);
 
 }  // namespace vkh

@@ -1,6 +1,7 @@
 #include "host/batch/picture_folders.h"
 
 #include <algorithm>
+#include <tuple>
 #include <exception>
 
 #include "host/answer/merge.h"
@@ -46,21 +47,25 @@ std::string reason_of(const std::exception_ptr& error) {
 
 }  // namespace
 
-BatchFolders::BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& entries,
+BatchFolders::BatchFolders(const Request& asked, const std::vector<Entry>& entries,
                            const std::vector<std::string>& taken)
-    : asked_(asked) {
-  if (asked.images) images_.emplace("--image-dir", *asked.images, ".png");
-  if (asked.reports) reports_.emplace("--report-dir", *asked.reports, ".html");
+    : style_(style_of(asked.outputs.look)),
+      effort_(asked.question.effort),
+      max_distance_(asked.question.max_distance) {
+  const auto& [images, reports] = std::tie(asked.many.image_folder, asked.many.report_folder);
+  if (images) images_.emplace("--image-dir", *images, ".png");
+  if (reports) reports_.emplace("--report-dir", *reports, ".html");
+  are_one_ = images && reports && place_of(*images) == place_of(*reports);
   for (const auto* folder : {&images_, &reports_}) {
     if (*folder) (*folder)->open(ids_of(entries), taken);
   }
 }
 
 std::string BatchFolders::key_of(const ResultName& name) const {
-  const std::string effort = asked_.effort ? "\neffort " + std::to_string(*asked_.effort) : "";
+  const std::string effort = effort_ ? "\neffort " + std::to_string(*effort_) : "";
   const std::string most =
-      asked_.max_distance ? "\nmax-distance " + asked_.max_distance->requested : "";
-  return name.key + "\n" + text_of(asked_.look) + effort + most;
+      max_distance_ ? "\nmax-distance " + max_distance_->requested : "";
+  return name.key + "\n" + text_of(style_) + effort + most;
 }
 
 bool BatchFolders::has(const ResultName& name, bool symmetric) const {
@@ -85,13 +90,13 @@ void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
 }
 
 void BatchFolders::ask(Question& question) const {
-  ask_for(asked_.look, question);
+  ask_for(style_, question);
   question.statistics = question.statistics || reports_.has_value();
-  if (asked_.effort) question.effort = asked_.effort;
-  if (!asked_.max_distance) return;
+  if (effort_) question.effort = effort_;
+  if (!max_distance_) return;
   if (question.asks_for_sides())
     throw UsageError("--max-distance: leaves out of figures and pictures without sides alone");
-  question.max_distance = asked_.max_distance;
+  question.max_distance = max_distance_;
 }
 
 // Writes no picture of a survey that was cut short: it would later be taken for a whole one.
@@ -108,8 +113,8 @@ void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
   const Measured measured{answer, *pair.meshes.a, *pair.meshes.b};
   const std::string& id = entry.name.id;
   const std::string key = key_of(entry.name);
-  std::vector<std::string> pictures = pictures_of(measured, asked_.look);
-  if (reports_) reports_->write(id, false, report_of(measured, pictures, asked_.look), key);
+  std::vector<std::string> pictures = pictures_of(measured, style_);
+  if (reports_) reports_->write(id, false, report_of(measured, pictures, style_), key);
   if (!images_) return;
   for (const Side& side : sides_of(measured))
     images_->write(id, side.back, std::move(pictures[side.back ? 1 : 0]), key);
@@ -119,8 +124,8 @@ void BatchFolders::write_indexes(const std::string& file, const std::vector<Entr
                                  bool has_limit) const {
   Results results;
   results.add(file);
-  const bool is_one = are_one();
-  IndexContents index{.rows = {}, .results = file, .look = asked_.look, .has_limit = has_limit};
+  const bool is_one = are_one_;
+  IndexContents index{.rows = {}, .results = file, .look = style_, .has_limit = has_limit};
   for (const Entry& entry : entries) index.left += results.has(entry.id) ? 0 : 1;
   const auto write = [&](const PairFolder& folder, bool has_images, bool has_reports) {
     index.rows.clear();
@@ -143,14 +148,10 @@ void BatchFolders::write_indexes(const std::string& file, const std::vector<Entr
   if (reports_ && !is_one) write(*reports_, false, true);
 }
 
-bool BatchFolders::are_one() const {
-  return images_ && reports_ && place_of(*asked_.images) == place_of(*asked_.reports);
-}
-
 std::vector<std::string> BatchFolders::indexes() const {
   std::vector<std::string> files;
   if (images_) files.push_back(images_->path_in(PairFolder::kIndex));
-  if (reports_ && !are_one()) files.push_back(reports_->path_in(PairFolder::kIndex));
+  if (reports_ && !are_one_) files.push_back(reports_->path_in(PairFolder::kIndex));
   return files;
 }
 

@@ -14,14 +14,6 @@
 
 namespace vkh {
 
-struct FoldersAsked {
-  std::optional<std::string> images = {}, reports = {};
-  PictureStyle look;
-  std::optional<uint64_t> effort = {};      ///< SurveyOptions::effort
-  std::optional<Length> max_distance = {};  ///< Question::max_distance of what is drawn
-  bool any() const { return images || reports; }
-};
-
 /// A pair whose run has ended, on the thread that ran it.
 struct EndedPair {
   const NamedEntry& entry;
@@ -35,7 +27,7 @@ class BatchFolders {
  public:
   /// Makes the folders. Throws UsageError if one cannot be written, or a file in it would replace
   /// one that is `taken`.
-  BatchFolders(const FoldersAsked& asked, const std::vector<Entry>& entries,
+  BatchFolders(const Request& asked, const std::vector<Entry>& entries,
                const std::vector<std::string>& taken);
 
   /// Whether files of this answer, drawn as requested, exist from before.
@@ -62,10 +54,12 @@ class BatchFolders {
  private:
   std::string key_of(const ResultName& name) const;
   void write(const EndedPair& pair, Answer& answer) const;
-  bool are_one() const;
 
-  FoldersAsked asked_;
+  PictureStyle style_;
+  std::optional<uint64_t> effort_;      // SurveyOptions::effort
+  std::optional<Length> max_distance_;  // Question::max_distance of what is drawn
   std::optional<PairFolder> images_, reports_;
+  bool are_one_ = false;
   mutable std::mutex mutex_;
   std::vector<std::string> failures_;
   size_t left_ = 0;

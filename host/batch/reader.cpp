@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <tuple>
 #include <utility>
 
-#include "host/answer/options.h"
 #include "host/base/decimal.h"
 #include "host/base/system.h"
 #include "vkhausdorff/error.h"
@@ -37,77 +35,24 @@ std::string hashes_in_text(const Input& input) {
   return text;
 }
 
-// A question without these has the key that it always had.
-void add_placement(const Question& question, std::string& text) {
-  if (!question.unit_a.empty()) text += "\nunit a " + question.unit_a;
-  if (!question.unit_b.empty()) text += "\nunit b " + question.unit_b;
-  if (question.align) text += "\nalign";
-  if (!question.transform) return;
-  text += question.may_stretch ? "\nscale" : "\nplace";
-  for (const auto& row : *question.transform) {
-    for (const double entry : row) text += ' ' + shortest_decimal(entry);
-  }
+// Hashes all that an answer depends on, except for the device.
+std::string key_of(const Request& asked, const Answer& known, bool shares_b) {
+  std::string text = program_version();
+  for (const Input& input : known.inputs) text += '\n' + hashes_in_text(input);
+  text += shares_b ? "\nprepared" : "";
+  return sha256_of_text(text + key_text(asked));
 }
 
-// Takes the units and the matrix of an entry, and reads the matrix, which is in the key.
-void place_by(const Entry& entry, Question& question) {
-  for (const auto& [name, unit, to] : {std::tuple{"unit", &entry.unit, &question.unit},
-                                       {"unit_a", &entry.unit_a, &question.unit_a},
-                                       {"unit_b", &entry.unit_b, &question.unit_b}}) {
-    if (unit->empty()) continue;
-    check_unit(name, *unit);
-    *to = *unit;
-  }
-  if (!entry.transform.empty()) question.transform_file = entry.transform;
+/// Puts what a row asks for itself in place of the batch's.
+void put_row(const Entry& entry, Request& asked) {
+  for (const auto& [option, text] : entry.options)
+    put(*option, {column_name(*option), std::span(&text, 1)}, asked);
+  Question& question = asked.question;
+  if (!asked.has("tol") && question.max)
+    question.tolerance = parse_length("tol", "1e-7", PlainNumber::kFraction);
   if (!question.transform_file.empty())
     question.transform = read_matrix(path_of(question.transform_file));
-}
-
-// A question without sides has the key that it always had.
-void add_sides(const Question& question, std::string& text) {
-  if (question.max_sides)
-    text += "\nover " + question.max_sides->over.requested + " under " +
-            question.max_sides->under.requested;
-  if (question.is_signed) text += "\nsigned";
-  if (question.metrics) {
-    text += "\nmetrics " + shortest_decimal(question.metrics->percentile);
-    for (const std::string& figure : question.metrics->figures) text += " " + figure;
-    if (question.metrics->normals)
-      text += " normals " + shortest_decimal(*question.metrics->normals);
-  }
-  for (const Length& band : question.bands) text += "\nwithin " + band.requested;
-  if (question.asks_for_survey() && question.effort)
-    text += "\neffort " + std::to_string(*question.effort);
-}
-
-// Hashes all that an answer depends on, except for the device, and --max-input, which may decide a
-// refusal.
-std::string key_of(const Question& question, const Answer& known, bool shares_b) {
-  std::string text = program_version();
-  const auto add = [&](const std::string& part) { text += '\n' + part; };
-  add("all files");  // before 0.2.0, keys did not cover all files
-  for (const Input& input : known.inputs) add(hashes_in_text(input));
-  add(question.tolerance.requested);
-  add(question.max ? question.max->requested : "");
-  add(question.unit);
-  add_placement(question, text);
-  add_sides(question, text);
-  if (question.limits.odd_polygons == OddPolygons::kFanned) add("polygons fan");
-  if (question.limits.any_triangulation) add("polygons any");
-  if (question.limits.bodies == Bodies::kAll) add("bodies all");
-  if (question.points_a) add("points a");
-  if (question.points_b) add("points b");
-  add(question.symmetric ? "symmetric" : "");
-  add(shares_b ? "prepared" : "");
-  const SolveOptions& o = question.options;
-  add(o.preset);
-  for (const std::string& name : o.enabled) add("+" + name);
-  for (const std::string& name : o.disabled) add("-" + name);
-  add(std::to_string(o.time_limit_s));
-  add(std::to_string(o.wave_limit));
-  add(std::to_string(o.memory_bytes));
-  add(std::to_string(question.limits.max_input_bytes));
-  return sha256_of_text(text);
+  question.statistics = question.is_signed;
 }
 
 }  // namespace
@@ -123,7 +68,7 @@ std::set<std::string> shared_files(const std::vector<Entry>& entries) {
 
 // A thread that requests a file that another thread reads waits for it.
 InputHashes EntryReader::hashes_of(const std::string& file, bool is_shared) {
-  ReadLimits limits = base_.limits;
+  ReadLimits limits = base_.question.limits;
   limits.keep_going = keep_going_;
   if (!is_shared) return hashes_of_input(file, limits);
   std::promise<InputHashes> mine;
@@ -150,21 +95,11 @@ NamedEntry EntryReader::name(const Entry& entry) {
     throw InputError({.file = entry.one_file(), .problem = entry.missing});
   NamedEntry named;
   named.entry = &entry;
-  Question& question = named.question = base_;
+  Request asked = base_;
+  put_row(entry, asked);
+  Question& question = named.question = asked.question;
   question.file_a = entry.file_a;
   question.file_b = entry.file_b;
-  place_by(entry, question);
-  const bool has_gate_tolerance = !base_.tolerance_is_typed && !entry.max.empty();
-  const std::string tolerance =
-      entry.tolerance.empty() && has_gate_tolerance ? "1e-7" : entry.tolerance;
-  if (!tolerance.empty())
-    question.tolerance = parse_length("tol", tolerance, PlainNumber::kSmallFraction);
-  if (!entry.max.empty()) put_max("max", entry.max, question);
-  if (!entry.points.empty()) put_points("points", entry.points, question);
-  question.align = entry.align.value_or(question.align);
-  question.symmetric = entry.symmetric.value_or(question.symmetric);
-  question.is_signed = entry.is_signed.value_or(question.is_signed);
-  question.statistics = question.is_signed;
   if (question.metrics && (!question.symmetric || question.max))
     throw UsageError(
         "--metrics: figures are of both directions and no verdict: leave out 'max', and "
@@ -180,7 +115,7 @@ NamedEntry EntryReader::name(const Entry& entry) {
     named.known.inputs[i].files = std::move(hashes.files);
     if (!is_shared) named.file_bytes += hashes.bytes;
   }
-  named.name = {entry.id, key_of(question, named.known, shares_b)};
+  named.name = {entry.id, key_of(asked, named.known, shares_b)};
   return named;
 }
 

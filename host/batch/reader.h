@@ -43,7 +43,7 @@ class EntryReader {
  public:
   /// `base`: what is asked of every pair. `shared`: the files of the whole list, whatever the
   /// shard, since answers depend on it. `keep_going`: false ends reading with Interrupted.
-  EntryReader(Question base, std::set<std::string> shared, std::function<bool()> keep_going)
+  EntryReader(Request base, std::set<std::string> shared, std::function<bool()> keep_going)
       : base_(std::move(base)), shared_(std::move(shared)), keep_going_(std::move(keep_going)) {}
 
   /// Throws UsageError for an entry's wrong options, and InputError for one without a partner.
@@ -72,7 +72,7 @@ class EntryReader {
   SharedMesh kept_mesh_of(const std::string& file, const ReadLimits& limits);
   void drop_old();
 
-  Question base_;
+  Request base_;
   std::set<std::string> shared_;
   std::function<bool()> keep_going_;
   std::mutex mutex_;

@@ -1,6 +1,6 @@
 #include "host/python/many.h"
 
-#include "host/answer/options.h"
+#include "host/answer/quantities.h"
 #include "host/python/arguments.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"

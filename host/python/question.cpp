@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/answer/options.h"
+#include "host/answer/quantities.h"
 #include "host/base/decimal.h"
 #include "host/base/float_environment.h"
 #include "host/base/system.h"

@@ -67,6 +67,18 @@ std::string label_of(const Answer& answer, bool back) {
 
 Enclosure interval_of(const Side& side) { return {side.report.lower, side.report.upper}; }
 
+PictureStyle style_of(const Look& look) {
+  PictureStyle style;
+  style.options.view = parse_view("--view", look.view);
+  style.options.map = parse_colour_map("--map", look.map.value_or("viridis"));
+  if (look.size) parse_picture_size("--size", *look.size, style.options);
+  style.options.up = look.up == "y" ? Up::kY : Up::kZ;
+  style.options.bands = static_cast<uint32_t>(look.steps);
+  style.range = look.range;
+  style.is_plain = look.map.has_value();  // the palettes of signed maps have no names
+  return style;
+}
+
 void ask_for(const PictureStyle& look, Question& question) {
   const PictureOptions& options = look.options;
   question.map_range = look.range;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/answer/request.h"
 #include "host/show/draw.h"
 #include "vkhausdorff/answer.h"
 
@@ -18,6 +19,9 @@ struct PictureStyle {
   std::optional<std::array<Length, 2>> range;  ///< range of colours; none: each picture has its own
   bool is_plain = false;  ///< distances have signs only where the question asks for sides
 };
+
+/// Throws UsageError for a view, an axis, a size or a map that there is not.
+PictureStyle style_of(const Look& look);
 
 /// An answer with its surveys and its inputs.
 struct Measured {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "host/answer/options.h"
+#include "host/answer/quantities.h"
 #include "vkhausdorff/answer.h"
 #include "vkhausdorff/error.h"
 
@@ -16,17 +16,16 @@ namespace {
 using nlohmann::json;
 
 TEST_CASE("quantities") {
-  CHECK(vkh::parse_memory("4096") == 4096);
-  CHECK(vkh::parse_memory("2GiB") == 2ull << 30);
-  CHECK(vkh::parse_memory("1.5kb") == 1500);
-  CHECK(vkh::parse_memory("0.5 MiB") == 1u << 19);
-  CHECK(vkh::parse_time("250ms") == 0.25);
-  CHECK(vkh::parse_time("2min") == 120);
-  CHECK(vkh::parse_time("1h") == 3600);
-  CHECK(vkh::parse_time("10") == 10);
-  CHECK(vkh::parse_waves("4294967295") == 4294967295u);
-  CHECK_THROWS_AS(vkh::parse_memory("0x10"), vkh::UsageError);
-  CHECK_THROWS_AS(vkh::parse_time("1 fortnight"), vkh::UsageError);
+  CHECK(vkh::parse_size("--memory", "4096") == 4096);
+  CHECK(vkh::parse_size("--memory", "2GiB") == 2ull << 30);
+  CHECK(vkh::parse_size("--memory", "1.5kb") == 1500);
+  CHECK(vkh::parse_size("--memory", "0.5 MiB") == 1u << 19);
+  CHECK(vkh::parse_time("--time", "250ms") == 0.25);
+  CHECK(vkh::parse_time("--time", "2min") == 120);
+  CHECK(vkh::parse_time("--time", "1h") == 3600);
+  CHECK(vkh::parse_time("--time", "10") == 10);
+  CHECK_THROWS_AS(vkh::parse_size("--memory", "0x10"), vkh::UsageError);
+  CHECK_THROWS_AS(vkh::parse_time("--time", "1 fortnight"), vkh::UsageError);
 }
 
 vkh::Report directed(vkh::Status status, double lower, double upper) {

@@ -17,7 +17,7 @@
 #include <map>
 #include <memory>
 
-#include "host/answer/options.h"
+#include "host/answer/quantities.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/manifest.h"
 #include "tools/bench/table.h"
@@ -168,7 +168,7 @@ class Race {
 
 ExitCode run(Arguments& args) {
   args.common.certified = !args.plain;
-  if (!args.memory.empty()) args.common.memory_bytes = parse_memory(args.memory);
+  if (!args.memory.empty()) args.common.memory_bytes = parse_size("memory", args.memory);
   return Race(args).run();
 }
 

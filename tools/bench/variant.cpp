@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "host/answer/options.h"
+#include "host/answer/quantities.h"
 
 namespace vkh::bench {
 namespace {
@@ -40,7 +40,7 @@ Variant variant_of(const std::string& name, const SolveOptions& common) {
     at = end;
   }
   if (at < name.size() && name[at] == '@') {
-    variant.options.memory_bytes = parse_memory(name.substr(at + 1));
+    variant.options.memory_bytes = parse_size("memory", name.substr(at + 1));
     at = name.size();
   }
   if (at < name.size() || name.empty())

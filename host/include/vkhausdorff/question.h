@@ -45,7 +45,6 @@ struct Question {
 
   // The distance.
   Length tolerance{.requested = "1e-6", .number = 1e-6};
-  bool tolerance_is_typed = true;     ///< false: a pair's own limit brings a gate's with it
   bool symmetric = false;             ///< both directions
   std::optional<PartOf> part;         ///< the part of A, alone
   std::optional<Length> known_lower;  ///< the bound that other parts have shown

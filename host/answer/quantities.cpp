@@ -1,4 +1,4 @@
-#include "host/answer/options.h"
+#include "host/answer/quantities.h"
 
 #include <algorithm>
 #include <array>
@@ -86,37 +86,15 @@ uint64_t parse_size(const char* option, const std::string& text) {
   return static_cast<uint64_t>(bytes);
 }
 
-uint64_t parse_memory(const std::string& text) { return parse_size("--memory", text); }
-
-uint32_t parse_waves(const std::string& text) {
-  uint32_t waves = 0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, waves);
-  if (result.ec != std::errc() || result.ptr != end) {
-    refuse("--waves", text, "a whole number of waves, 0 or more");
-  }
-  return waves;
-}
-
-uint64_t parse_effort(const std::string& text) {
-  constexpr uint64_t kMost = 1'000'000'000'000;
-  uint64_t cells = 0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, cells);
-  if (result.ec != std::errc() || result.ptr != end || cells > kMost)
-    refuse("--effort", text, "a whole number of cells, 0 or more, such as 1000000");
-  return cells;
-}
-
-double parse_time(const std::string& text) {
+double parse_time(const char* option, const std::string& text) {
   constexpr const char* kExpected =
       "a time above zero such as 10s, 250ms, 2min, 1h or a number of seconds";
   Quantity quantity;
-  if (!split(text, quantity)) refuse("--time", text, kExpected);
+  if (!split(text, quantity)) refuse(option, text, kExpected);
   const NamedFactor* unit = find_unit(kTimeUnits, quantity.unit);
-  if (unit == nullptr) refuse("--time", text, kExpected);
+  if (unit == nullptr) refuse(option, text, kExpected);
   const double seconds = quantity.number * unit->factor;
-  if (!std::isfinite(seconds) || seconds <= 0) refuse("--time", text, kExpected);
+  if (!std::isfinite(seconds) || seconds <= 0) refuse(option, text, kExpected);
   return seconds;
 }
 
@@ -141,21 +119,6 @@ std::optional<SidedMax> parse_sided(const char* option, const std::string& text)
 
 std::string sided_text(const Length& over, const Length& under) {
   return "+" + over.requested + ",-" + under.requested;
-}
-
-void put_max(const char* option, const std::string& text, Question& question) {
-  question.max_sides = parse_sided(option, text);
-  question.max = question.max_sides
-                     ? question.max_sides->over
-                     : parse_length(option, std::string(trimmed(text)), PlainNumber::kRefused);
-}
-
-void put_points(const char* option, const std::string& text, Question& question) {
-  if (text != "a" && text != "b" && text != "both")
-    throw UsageError(std::string(option) + " '" + text +
-                     "': expected a, b or both, the files that are points without faces");
-  question.points_a = text != "b";
-  question.points_b = text != "a";
 }
 
 double parse_share(const char* option, const std::string& text) {
@@ -204,7 +167,7 @@ double parse_angle(const char* option, const std::string& text) {
                      "an angle above 0 and at most 90 degrees, such as 20deg");
 }
 
-PartOf parse_part(const std::string& text) {
+PartOf parse_part(const char* option, const std::string& text) {
   PartOf part;
   const char* end = text.data() + text.size();
   const auto index = std::from_chars(text.data(), end, part.index);
@@ -212,7 +175,7 @@ PartOf parse_part(const std::string& text) {
     const auto count = std::from_chars(index.ptr + 1, end, part.count);
     if (count.ec == std::errc() && count.ptr == end && part.index < part.count) return part;
   }
-  refuse("--part", text, "a part, from 0, and how many there are, such as 0/8 to 7/8");
+  refuse(option, text, "a part, from 0, and how many there are, such as 0/8 to 7/8");
 }
 
 }  // namespace vkh

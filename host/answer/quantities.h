@@ -13,28 +13,15 @@ namespace vkh {
 /// "2GiB", "512M", "1.5GB", or a plain number of bytes; at least one byte. K, M, G and T are powers
 /// of 1024. The error names `option`.
 uint64_t parse_size(const char* option, const std::string& text);
-uint64_t parse_memory(const std::string& text);
-
-/// A whole number from 0 to 2^32 - 1.
-uint32_t parse_waves(const std::string& text);
-
-/// A whole number of cells, from 0 to 10^12.
-uint64_t parse_effort(const std::string& text);
 
 /// Seconds: "10s", "250ms", "2min", "1h", or a plain number of seconds; more than zero.
-double parse_time(const std::string& text);
+double parse_time(const char* option, const std::string& text);
 
 /// "+0.25mm,-0.4mm": the limits over B and under it, in either order. Nothing for a text that has
 /// no sign before a number.
 std::optional<SidedMax> parse_sided(const char* option, const std::string& text);
 /// Writes both limits so, the one over B first, as they were asked for.
 std::string sided_text(const Length& over, const Length& under);
-
-/// Puts a limit, one for both sides or one for each, in place of what the question has.
-void put_max(const char* option, const std::string& text, Question& question);
-
-/// "a", "b" or "both": which files are points. Throws UsageError.
-void put_points(const char* option, const std::string& text, Question& question);
 
 /// "99.5%", or a number from 0 to 1. Throws UsageError.
 double parse_share(const char* option, const std::string& text);
@@ -49,6 +36,6 @@ void check_percentile(const char* option, double percentile);
 double parse_angle(const char* option, const std::string& text);
 
 /// "3/8": part 3, from 0, of 8. Throws UsageError.
-PartOf parse_part(const std::string& text);
+PartOf parse_part(const char* option, const std::string& text);
 
 }  // namespace vkh

@@ -1,0 +1,40 @@
+// How a text becomes the value of an option, and the value a line of a pair's key: by the kind of
+// the option, but for those that fill in more than one member.
+#pragma once
+
+#include <string>
+
+#include "host/answer/options_table.h"
+
+namespace vkh {
+
+/// Cells to bound at most of a pair in a batch with --metrics: a few pairs that need more would
+/// take most of the list's time (docs/log/measurements.md).
+constexpr uint64_t kEffortOfMetrics = 1'000'000;
+
+/// Throws InputError for a text that is neither true nor false.
+void check_truth(const std::string& said, const std::string& text);
+
+// The options with a rule of their own. Each throws UsageError.
+
+void put_max(const Given& given, Request& asked);  ///< one limit, or one for each side
+void put_area(const Given& given, Request& asked);
+void put_polygons(const Given& given, Request& asked);
+void put_bodies(const Given& given, Request& asked);
+void put_points(const Given& given, Request& asked);
+void put_transform(const Given& given, Request& asked);
+void put_out(const Given& given, Request& asked);
+void put_junit(const Given& given, Request& asked);
+void put_json(const Given& given, Request& asked);  ///< no text: on standard output
+void put_range(const Given& given, Request& asked);
+void put_no_cache(const Given& given, Request& asked);
+
+std::string max_text(const Request& asked);
+std::string area_text(const Request& asked);
+std::string polygons_text(const Request& asked);
+std::string bodies_text(const Request& asked);
+std::string points_text(const Request& asked);
+/// The matrix, once it was read: files of other names may have the same one.
+std::string transform_text(const Request& asked);
+
+}  // namespace vkh

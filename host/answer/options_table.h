@@ -1,0 +1,124 @@
+// Every option, a row each: from it the program makes its options, their help and the columns of
+// lists, Python its keywords, and a batch the keys by which it knows a pair again. Man page,
+// completions and the package's signatures are made from it by tools/options.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "host/answer/request.h"
+
+namespace vkh {
+
+/// The reading of a text, and the shape that help shows.
+enum class Kind {
+  kFlag,
+  kText,
+  kFile,       ///< to be written
+  kInput,      ///< to be read; in a list, from the list's folder
+  kFolder,     ///< to be written into
+  kUnit,       ///< of length
+  kLength,     ///< with its unit
+  kTolerance,  ///< a length, or a small fraction of the diagonal
+  kLengths,    ///< between commas
+  kNames,      ///< between commas
+  kChoice,     ///< one of Option::choices
+  kShare,      ///< of area
+  kPercentile,
+  kAngle,
+  kSize,   ///< of memory or a file
+  kTime,
+  kCount,  ///< from Option::least to Option::most
+  kNumber, ///< from Option::least to Option::most
+  kPart,   ///< I/N
+};
+
+/// The headings of --help-all, in its order.
+enum class Group { kQuestion, kPlacement, kOutput, kDrawing, kBatch, kCost };
+const char* heading_of(Group group);
+
+/// A text that was given for an option, and the option's name in messages: --unit-a of the command
+/// line, unit_a of a list and of Python.
+struct Given {
+  std::string said;
+  std::span<const std::string> texts;  ///< several where the kind has commas; none of a flag
+  const std::string& text() const { return texts.front(); }
+};
+
+template <class T>
+using Member = T& (*)(Request&);
+
+/// An option that fills in more than one member, or one by a rule of its own.
+struct Own {
+  void (*put)(const Given& given, Request& asked);
+  std::string (*text)(const Request& asked);  ///< for keys: another one for each other value
+};
+
+using Target =
+    std::variant<Own, Member<bool>, Member<std::string>, Member<std::optional<std::string>>,
+                 Member<std::vector<std::string>>, Member<Length>, Member<std::optional<Length>>,
+                 Member<std::vector<Length>>, Member<double>, Member<std::optional<double>>,
+                 Member<uint32_t>, Member<uint64_t>, Member<std::optional<uint64_t>>,
+                 Member<PartOf>, Member<std::optional<PartOf>>>;
+
+/// An option of some commands. In `help`, "{lengths}" stands for the forms of a length.
+struct Use {
+  Commands of = 0;
+  std::string help;
+  const char* otherwise = "";  ///< its value where it is not given, as help shows it
+  bool required = false;
+};
+
+/// The functions of Python that take a keyword.
+using Functions = uint32_t;
+constexpr Functions kPyDistance = 1, kPyGate = 2, kPyMetrics = 4, kPyMany = 8, kPySolver = 16,
+                    kPyRead = 32, kPySimplify = 64, kPyLevels = 128;
+
+struct Option {
+  const char* name;
+  Kind kind;
+  Group group;
+  Target target;
+  std::vector<Use> uses;
+  Commands few = 0;            ///< the commands whose --help shows it
+  bool is_column = false;      ///< of lists
+  Functions functions = 0;     ///< of Python
+  const char* keyword = "";    ///< Python's name, where it is another one
+  const char* shape = "";      ///< of its value in help; empty: the kind's
+  std::vector<std::string> choices = {};  ///< of other kinds than kChoice and kNames: some of many
+  double least = 0, most = 0;  ///< of counts and numbers
+  std::vector<std::string> also = {};  ///< what people call it, in lower case without blanks
+  const char* unlike = "";     ///< why two values are one question: not part of a pair's key
+};
+
+/// All options, in the order of their help.
+const std::vector<Option>& options();
+
+/// The row of this name on the command line, or null.
+const Option* option_of(std::string_view name);
+/// The row of a list's column, or of a function's keyword; null if there is none.
+const Option* column_of(std::string_view name);
+const Option* keyword_of(Functions function, std::string_view name);
+
+/// The option's name in lists, and in Python.
+std::string column_name(const Option& option);
+std::string keyword_name(const Option& option);
+
+/// How a command has the option; null: it does not.
+const Use* use_of(const Option& option, Commands command);
+
+/// The shape of its value in help: LENGTH, FILE, fan|any; empty for a flag.
+std::string shape_of(const Option& option);
+
+/// Puts what was given in its place. Throws UsageError that names the option, the text and the
+/// expected form.
+void put(const Option& option, const Given& given, Request& asked);
+
+/// All that a pair's answer depends on: a line for each option whose value is not that of none.
+std::string key_text(const Request& asked);
+
+}  // namespace vkh

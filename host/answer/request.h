@@ -1,0 +1,81 @@
+// All that a command may be asked, as its options fill it in: options_table.h has a row for each.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vkhausdorff/question.h"
+#include "vkhausdorff/stream.h"
+
+namespace vkh {
+
+/// A set of commands, one bit each.
+using Commands = uint32_t;
+constexpr Commands kDistance = 1, kGate = 2, kMetrics = 4, kBatch = 8, kMerge = 16, kSimplify = 32,
+                   kDemo = 64, kDoctor = 128;
+
+/// The look of pictures, as it was typed; style_of() of host/show reads it.
+struct Look {
+  std::string view = "iso", up = "z";
+  std::optional<std::string> size, map;
+  std::optional<std::array<Length, 2>> range;  ///< the ends of the colours
+  uint64_t steps = 0;                          ///< of colour; 0: smooth
+};
+
+/// The places of an answer besides the table.
+struct Outputs {
+  bool json = false;  ///< one object on standard output instead of the table
+  std::optional<std::string> json_file, junit, transform;
+  bool github = false;  ///< annotations and a summary for GitHub Actions
+  std::optional<std::string> field, image, report, certificate, figures, points;
+  std::string title;  ///< the report's heading; empty: the names of the files
+  Look look;
+
+  bool shows_cells() const { return field || image || report || figures || points; }
+  bool has_pictures() const { return shows_cells() || certificate; }
+};
+
+/// What many pairs have besides the question about each.
+struct ManyRequest {
+  std::vector<std::string> files;  ///< as they were named: a list, folders, meshes or results
+  std::string against;             ///< one B for each of `files`; empty: they name pairs
+  bool allows_unpaired = false;    ///< a file without a partner there is no failure
+  std::string results;
+  std::string list;  ///< merge: the list whose ids must be there; empty: no check
+  std::optional<std::string> csv, junit, image_folder, report_folder;
+  PartOf shard;
+  bool resumes = false, fails_fast = false;
+  bool reproducible = false;  ///< leaves out what differs between two runs
+  StreamOptions devices;      ///< the options that Question does not have
+  uint64_t read_ahead_bytes = 0;
+};
+
+/// What `simplify` has besides the question about its mesh.
+struct SimplifyRequest {
+  std::string out;
+  bool one_way = false, lock_borders = false;
+  uint64_t levels = 0;  ///< 0: one mesh, as few faces as are found
+  double ratio = 0.5;
+};
+
+struct Request {
+  Commands command = 0;  ///< one of them
+  Question question;
+  bool metrics = false;          ///< Question::metrics is wanted, with these
+  MetricsOptions metric_options;
+  double time_limit_s = std::numeric_limits<double>::infinity();
+  Outputs outputs;
+  ManyRequest many;
+  SimplifyRequest simplify;
+
+  std::set<std::string_view> given;  ///< names of the options that were
+  bool has(std::string_view option) const { return given.count(option) > 0; }
+};
+
+}  // namespace vkh

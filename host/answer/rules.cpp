@@ -1,0 +1,255 @@
+#include "host/answer/rules.h"
+
+#include <algorithm>
+#include <initializer_list>
+#include <vector>
+
+#include "host/answer/option_values.h"
+#include "host/answer/options_table.h"
+#include "vkhausdorff/error.h"
+
+namespace vkh {
+namespace {
+
+using Names = std::vector<std::string_view>;
+using When = std::function<bool(const Request&)>;
+
+/// `when` holds and one of `options` was given, or there are none: refused with what it says, where
+/// "{option}" is that one, and "{stats}" the name of another.
+struct Rule {
+  Names options;
+  When when;
+  const char* says;
+  Commands of = ~Commands{0};
+};
+
+bool any_of(const Request& asked, const Names& names) {
+  return std::any_of(names.begin(), names.end(), [&](auto name) { return asked.has(name); });
+}
+When with(Names names) {
+  return [names = std::move(names)](const Request& asked) { return any_of(asked, names); };
+}
+When without(Names names) {
+  return [names = std::move(names)](const Request& asked) { return !any_of(asked, names); };
+}
+
+bool is_by_face(const Request& asked) { return asked.question.is_by_face(); }
+bool asks_for_sides(const Request& asked) { return asked.question.asks_for_sides(); }
+bool has_metrics(const Request& asked) { return asked.metrics; }
+
+const Names kCells{"field", "image", "report", "figures-csv", "points-out"};
+const Names kPages{"report", "figures-csv", "report-dir", "certificate"};
+const Names kSurface{"image", "report", "figures-csv", "points-out", "image-dir", "report-dir"};
+
+bool is_of_triangles(const Request& asked) {
+  return asked.metrics || any_of(asked, {"stats", "signed", "bands", "area"}) ||
+         any_of(asked, kPages);
+}
+
+// Pairs of a list may ask for figures by themselves.
+bool has_no_survey(const Request& asked) {
+  const bool has_list = asked.command == kBatch && asked.many.against.empty() &&
+                        asked.many.files.size() == 1;
+  return !has_list && !asked.metrics && !asks_for_sides(asked) &&
+         !any_of(asked, {"stats", "bands", "area", "field-tol", "image-dir", "report-dir"}) &&
+         !any_of(asked, kCells);
+}
+
+bool writes_points_as_glb(const Request& asked) {
+  const Question& question = asked.question;
+  const bool starts_at_points = question.points_a || (question.points_b && question.symmetric);
+  return starts_at_points && asked.outputs.field && asked.outputs.field->ends_with(".glb");
+}
+
+std::vector<Rule> rules_of_placement() {
+  return {
+      {{"scale"},
+       [](const Request& a) { return a.question.transform_file.empty() && !a.question.transform; },
+       "{scale}: allows a {transform} to stretch A; there is none"},
+      {{"save-transform"},
+       without({"align", "transform"}),
+       "{save-transform}: there is no matrix: ask for {align} or {transform}"}};
+}
+
+std::vector<Rule> rules_of_limits() {
+  return {
+      {{"face-max-b"},
+       without({"symmetric"}),
+       "{face-max-b}: limits of B's faces are asked about by {symmetric} alone"},
+      {{"verify"}, is_by_face, "{verify}: is not to be had with {face-max}"},
+      {{"area"},
+       is_by_face,
+       "{area}: faces with limits of their own are asked about whole"},
+      {{"symmetric"},
+       [](const Request& asked) { return asked.question.face_limits_a.has_value(); },
+       "{max}: limits of A's faces say nothing of B's; ask for each direction apart"},
+      {{"certificate"},
+       [](const Request& asked) { return asked.has("area") || is_by_face(asked); },
+       "{certificate}: is of the interval, not to be had with {area} or {face-max}",
+       kDistance | kGate | kDemo},
+      {{"polygons"},
+       [](const Request& asked) {
+         return asked.question.limits.any_triangulation && is_of_triangles(asked);
+       },
+       "{polygons} any: areas and certificates are of one triangulation: no metrics, {stats}, "
+       "{signed}, {bands}, {area}, {report}, {figures-csv} or {certificate}"},
+      {{"field"},
+       writes_points_as_glb,
+       "{field}: points with their distances are written as .ply, not as .glb"}};
+}
+
+std::vector<Rule> rules_of_parts() {
+  Names more{"symmetric", "stats", "signed", "bands", "field-tol", "certificate"};
+  more.insert(more.end(), kCells.begin(), kCells.end());
+  return {{{"known-lower"},
+           without({"part"}),
+           "{known-lower}: is what other parts have shown: ask for a {part}"},
+          {{"part"},
+           with({"align"}),
+           "{part}: is of A where it lies: find the place once, by {align} and {save-transform}, "
+           "and give it to each part by {transform}"},
+          {{"part"},
+           with(std::move(more)),
+           "{part}: one direction's interval is all that is to be had of a part: no {symmetric}, "
+           "{stats}, {signed}, {bands}, {field-tol}, {field}, {image}, {report}, {figures-csv}, "
+           "{points-out} or {certificate}"}};
+}
+
+std::vector<Rule> rules_of_figures() {
+  Names shown{"stats", "bands"};
+  shown.insert(shown.end(), kSurface.begin(), kSurface.end());
+  return {{{"metrics"},
+           with({"max"}),
+           "{metrics}: figures are no verdict: leave out {max}, or ask for it by itself"},
+          {{"bands", "percentile", "figures", "normals"},
+           without({"metrics"}),
+           "{bands}, {percentile}, {figures}, {normals}: are of {metrics}",
+           kBatch},
+          {{"max-distance"}, has_metrics, "{max-distance}: metrics are of all of A and B"},
+          {{"max-distance"},
+           without(std::move(shown)),
+           "{max-distance}: is of figures and pictures: ask for {stats}, {bands}, {image} or "
+           "{report}; in a batch for {image-dir} or {report-dir}"},
+          {{"max-distance"},
+           [](const Request& asked) { return asked.has("area") || asks_for_sides(asked); },
+           "{max-distance}: leaves out of figures and pictures alone: no {area}, no sides"},
+          {{"effort"},
+           has_no_survey,
+           "{effort}: is of figures and faces' bounds: ask for {stats}, {signed}, {bands}, {area}, "
+           "{field-tol}, {field}, {image}, {report}, {figures-csv} or {points-out}",
+           kDistance | kGate | kDemo},
+          {{"effort"},
+           has_no_survey,
+           "{effort}: is of figures and of what is drawn: ask for {signed}, {metrics}, "
+           "{image-dir} or {report-dir}",
+           kBatch}};
+}
+
+std::vector<Rule> rules_of_pictures() {
+  const Names look{"view", "up", "size", "range", "steps"};
+  return {{look,
+           without({"image", "report"}),
+           "{option}: is of a picture: ask for {image} or {report}",
+           kDistance | kGate | kDemo},
+          {look,
+           without({"image-dir", "report-dir"}),
+           "{option}: is of a picture: ask for {image-dir} or {report-dir}",
+           kBatch},
+          {{"map"},
+           without({"image", "report", "field"}),
+           "{map}: is of colours: ask for {image}, {report} or {field}",
+           kDistance | kGate | kDemo},
+          {{"map"},
+           without({"image-dir", "report-dir"}),
+           "{map}: is of colours: ask for {image-dir} or {report-dir}",
+           kBatch},
+          {{"title"}, without({"report"}), "{title}: is of a page: ask for {report}"}};
+}
+
+std::vector<Rule> rules_of_simplify() {
+  return {{{"max"},
+           [](const Request& asked) { return asked.question.max_sides.has_value(); },
+           "{max}: expected one length, such as 0.1mm",
+           kSimplify},
+          {{"ratio"}, without({"levels"}), "{ratio}: is of {levels}", kSimplify},
+          {{"certificate"},
+           with({"levels"}),
+           "{certificate}: is of one mesh: leave {levels} out",
+           kSimplify}};
+}
+
+const std::vector<Rule>& rules() {
+  static const std::vector<Rule> known = [] {
+    std::vector<Rule> all;
+    for (auto* some : {rules_of_placement, rules_of_limits, rules_of_parts, rules_of_figures,
+                       rules_of_pictures, rules_of_simplify})
+      for (Rule& rule : some()) all.push_back(std::move(rule));
+    return all;
+  }();
+  return known;
+}
+
+/// Puts names in place of what stands in braces.
+std::string worded(std::string text, std::string_view option, const Naming& naming) {
+  for (size_t at = 0; (at = text.find('{', at)) != std::string::npos;) {
+    const size_t end = text.find('}', at);
+    const std::string named = text.substr(at + 1, end - at - 1);
+    text.replace(at, end + 1 - at, naming(named == "option" ? option : named));
+  }
+  return text;
+}
+
+void complete_metrics(Request& asked, const Naming& naming) {
+  if (!asked.metrics) return;
+  asked.question.symmetric = true;
+  asked.question.metrics = asked.metric_options;
+  asked.question.metrics->figures = checked_figures(naming("figures"), asked.metric_options.figures,
+                                                    asked.metric_options.percentile);
+}
+
+void complete_outputs(Request& asked) {
+  Question& question = asked.question;
+  const Outputs& outputs = asked.outputs;
+  question.certificate = outputs.certificate.has_value();
+  question.worst = question.worst || outputs.shows_cells();
+  question.faces = question.faces || question.face_tolerance || outputs.field;
+  question.statistics = question.statistics || outputs.report || outputs.figures;
+  question.hashes =
+      outputs.json || outputs.json_file || outputs.report || outputs.certificate;
+}
+
+void complete_batch(Request& asked) {
+  Question& question = asked.question;
+  if (!asked.has("tol"))
+    question.tolerance = parse_length("", question.max ? "1e-7" : "1e-6", PlainNumber::kFraction);
+  question.statistics = question.is_signed;  // a line of results has figures
+  question.options.time_limit_s = asked.time_limit_s;
+  if (asked.metrics && !question.effort) question.effort = kEffortOfMetrics;
+}
+
+}  // namespace
+
+std::string with_dashes(std::string_view option) { return "--" + std::string(option); }
+
+void check_together(const Request& asked, const Naming& naming) {
+  for (const Rule& rule : rules()) {
+    if ((rule.of & asked.command) == 0 || !rule.when(asked)) continue;
+    const auto given = std::find_if(rule.options.begin(), rule.options.end(),
+                                    [&](auto name) { return asked.has(name); });
+    if (given != rule.options.end()) throw UsageError(worded(rule.says, *given, naming));
+  }
+}
+
+void complete(Request& asked, const Naming& naming) {
+  Question& question = asked.question;
+  question.statistics = question.statistics || (!question.bands.empty() && !asked.metrics);
+  question.several_devices = asked.command == kDistance;
+  complete_metrics(asked, naming);
+  complete_outputs(asked);
+  if (asked.command == kBatch) complete_batch(asked);
+  if (asked.command != kSimplify) return;
+  question.tolerance = {.requested = "1e-7", .number = 1e-7};
+  question.symmetric = !asked.simplify.one_way;
+}
+
+}  // namespace vkh

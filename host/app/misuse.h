@@ -1,0 +1,19 @@
+// What a command line that is none may have meant.
+#pragma once
+
+#include <string>
+
+#include "host/app/arguments.h"
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace vkh {
+
+/// Words an error of the parser anew: with the option or the command that a misspelt one may mean.
+std::string usage_message(const CLI::App& program, const CLI::ParseError& error,
+                          const Words& words);
+
+}  // namespace vkh
