@@ -61,7 +61,7 @@ uint64_t whole_of(const Option& option, const Given& given) {
   const char* end = text.data() + text.size();
   const auto result = std::from_chars(text.data(), end, number);
   const bool is_one = result.ec == std::errc() && result.ptr == end;
-  if (is_one && number >= option.least && number <= option.most) return number;
+  if (is_one && is_within(option, static_cast<double>(number))) return number;
   refuse(given, text,
          "a whole number from " + shortest_decimal(option.least) + " to " +
              std::to_string(static_cast<uint64_t>(option.most)));
@@ -84,10 +84,10 @@ double number_of(const Option& option, const Given& given) {
   const char* end = text.data() + text.size();
   const auto result = number_from_chars(text.data(), end, number);
   const bool is_one = result.ec == std::errc() && result.ptr == end;
-  if (is_one && number >= option.least && number <= option.most) return number;
-  refuse(given, text,
-         "a number from " + shortest_decimal(option.least) + " to " +
-             shortest_decimal(option.most));
+  if (is_one && is_within(option, number)) return number;
+  refuse(
+      given, text,
+      "a number from " + shortest_decimal(option.least) + " to " + shortest_decimal(option.most));
 }
 
 /// Puts a text in a member, by the member's type and the option's kind.
@@ -195,9 +195,8 @@ void put_max(const Given& given, Request& asked) {
   Question& question = asked.question;
   const std::string text(trimmed(given.text()));
   question.max_sides = parse_sided(given.said.c_str(), text);
-  question.max = question.max_sides
-                     ? question.max_sides->over
-                     : parse_length(given.said.c_str(), text, PlainNumber::kRefused);
+  question.max = question.max_sides ? question.max_sides->over
+                                    : parse_length(given.said.c_str(), text, PlainNumber::kRefused);
 }
 
 std::string max_text(const Request& asked) {
@@ -215,8 +214,7 @@ std::string area_text(const Request& asked) { return asked.question.area_request
 
 void put_polygons(const Given& given, Request& asked) {
   const std::string& text = given.text();
-  asked.question.limits.odd_polygons =
-      text == "fan" ? OddPolygons::kFanned : OddPolygons::kRefused;
+  asked.question.limits.odd_polygons = text == "fan" ? OddPolygons::kFanned : OddPolygons::kRefused;
   asked.question.limits.any_triangulation = text == "any";
 }
 
@@ -271,7 +269,8 @@ void put_json(const Given& given, Request& asked) {
 }
 
 void put_range(const Given& given, Request& asked) {
-  if (given.texts.size() != 2) throw UsageError(given.said + ": expected two lengths, as in 0,0.5mm");
+  if (given.texts.size() != 2)
+    throw UsageError(given.said + ": expected two lengths, as in 0,0.5mm");
   std::array<Length, 2> range;
   for (size_t i = 0; i < 2; ++i) {
     const std::string& text = given.texts[i];

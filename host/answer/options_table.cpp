@@ -83,16 +83,16 @@ const std::vector<std::string>& units() {
 
 std::vector<Option> options_of_the_question() {
   const char* const plain = ", or a number alone up to 1e-3, ";
-  const std::string tolerance =
-      std::string("Width of the interval: {lengths}") + plain + "which is a fraction of the diagonal";
+  const std::string tolerance = std::string("Width of the interval: {lengths}") + plain +
+                                "which is a fraction of the diagonal";
   const std::string signed_help =
       "Also tell where A is over B, in front of its faces as they are oriented, and where under "
       "it, as far as that is proven; ";
   const std::string effort =
       "Cells to bound at most for figures and faces' bounds, besides each face once; the same "
       "number gives the same bits on a device [" +
-      std::to_string(default_effort(false)) + " on a GPU, " +
-      std::to_string(default_effort(true)) + " on a CPU";
+      std::to_string(default_effort(false)) + " on a GPU, " + std::to_string(default_effort(true)) +
+      " on a CPU";
   const std::string farther =
       " what is farther, and say its share: strays of a scan; h and verdicts are of all of A";
   return {
@@ -110,7 +110,7 @@ std::vector<Option> options_of_the_question() {
                 {kSimplify, "The limit, for each point of either mesh: {lengths}", "", true}},
        .few = kGate | kBatch | kSimplify,
        .is_column = true,
-       .functions = kPyGate | kPyMany,
+       .functions = kPyGate | kPyMany | kPySimplify,
        .also = {"limit", "maximum", "threshold", "maxdistance", "maxdeviation", "tolerance"}},
       {.name = "face-max",
        .kind = Kind::kInput,
@@ -138,9 +138,10 @@ std::vector<Option> options_of_the_question() {
        .kind = Kind::kFlag,
        .group = Group::kQuestion,
        .target = to<&Question::worst>,
-       .uses = {{kGate,
-                 "After the verdict, go on to the farthest point; with --image, --report or --field "
-                 "that is so without it"}},
+       .uses =
+           {{kGate,
+             "After the verdict, go on to the farthest point; with --image, --report or --field "
+             "that is so without it"}},
        .few = kGate,
        .functions = kPyGate},
       {.name = "tol",
@@ -231,7 +232,8 @@ std::vector<Option> options_of_the_question() {
        .kind = Kind::kFlag,
        .group = Group::kQuestion,
        .target = to<&Request::metrics>,
-       .uses = {{kBatch, "Both directions' figures by the names that papers use, as of 'metrics'"}}},
+       .uses = {{kBatch,
+                 "Both directions' figures by the names that papers use, as of 'metrics'"}}},
       {.name = "percentile",
        .kind = Kind::kPercentile,
        .group = Group::kQuestion,
@@ -282,7 +284,9 @@ std::vector<Option> options_of_the_question() {
        .target = to<&Question::face_tolerance>,
        .uses = {{kSurveyed,
                  "Bound the largest distance on each face of A, to so much [1 % of the "
-                 "largest]"}}},
+                 "largest]"}},
+       .functions = kPyPair,
+       .keyword = "field"},
       {.name = "effort",
        .kind = Kind::kCount,
        .group = Group::kQuestion,
@@ -313,13 +317,15 @@ std::vector<Option> options_of_the_question() {
        .group = Group::kQuestion,
        .target = to<&SimplifyRequest::one_way>,
        .uses = {{kSimplify, "Limit the points of A alone: the result may reach farther from A"}},
-       .few = kSimplify},
+       .few = kSimplify,
+       .functions = kPySimplify},
       {.name = "lock-borders",
        .kind = Kind::kFlag,
        .group = Group::kQuestion,
        .target = to<&SimplifyRequest::lock_borders>,
        .uses = {{kSimplify, "Keep each vertex of an edge that only one face has"}},
-       .few = kSimplify},
+       .few = kSimplify,
+       .functions = kPySimplify},
       {.name = "levels",
        .kind = Kind::kCount,
        .group = Group::kQuestion,
@@ -347,8 +353,7 @@ std::vector<Option> options_of_placement() {
        .kind = Kind::kUnit,
        .group = Group::kPlacement,
        .target = to<&Question::unit>,
-       .uses = {{kReading,
-                 "What the files are in, where they do not say: um, mm, cm, m, in or ft"},
+       .uses = {{kReading, "What the files are in, where they do not say: um, mm, cm, m, in or ft"},
                 {kSimplify, "What A's file is in, if it does not say: um, mm, cm, m, in or ft"}},
        .few = kReading | kSimplify,
        .is_column = true,
@@ -404,8 +409,7 @@ std::vector<Option> options_of_placement() {
 }
 
 std::vector<Option> options_of_outputs() {
-  const std::string words =
-      "; --json=FILE, without a space, writes it beside the ";
+  const std::string words = "; --json=FILE, without a space, writes it beside the ";
   return {
       {.name = "out",
        .kind = Kind::kFile,
@@ -467,7 +471,8 @@ std::vector<Option> options_of_outputs() {
        .target = to<&Outputs::certificate>,
        .uses = {{kDistance | kGate, "Write what proves the interval, for vkh_check to check: .vhc"},
                 {kSimplify, "Write what proves the distances, for vkh_check to check: .vhc"}},
-       .few = kSimplify},
+       .few = kSimplify,
+       .functions = kPyDistance | kPyGate | kPySolver},
       {.name = "junit",
        .kind = Kind::kFile,
        .group = Group::kOutput,
@@ -500,8 +505,7 @@ std::vector<Option> options_of_outputs() {
        .kind = Kind::kFolder,
        .group = Group::kOutput,
        .target = to<&ManyRequest::report_folder>,
-       .uses = {{kBatch,
-                 "Write each pair's report, as .html in this folder, with an index page"}},
+       .uses = {{kBatch, "Write each pair's report, as .html in this folder, with an index page"}},
        .few = kBatch,
        .unlike = kDrawn},
       {.name = "json",
@@ -583,7 +587,7 @@ std::vector<Option> options_of_drawing() {
 std::vector<Option> options_of_many() {
   return {{.name = "resume",
            .kind = Kind::kFlag,
-           .group = Group::kBatch,
+           .group = Group::kMany,
            .target = to<&ManyRequest::resumes>,
            .uses = {{kBatch,
                      "Keep the results that there are, and do what they have not, or not of these "
@@ -592,7 +596,7 @@ std::vector<Option> options_of_many() {
            .unlike = kHost},
           {.name = "shard",
            .kind = Kind::kPart,
-           .group = Group::kBatch,
+           .group = Group::kMany,
            .target = to<&ManyRequest::shard>,
            .uses = {{kBatch,
                      "Do one of n parts of the list, i from 0; which pairs it has is a matter of "
@@ -601,14 +605,13 @@ std::vector<Option> options_of_many() {
            .unlike = kHost},
           {.name = "fail-fast",
            .kind = Kind::kFlag,
-           .group = Group::kBatch,
+           .group = Group::kMany,
            .target = to<&ManyRequest::fails_fast>,
-           .uses = {{kBatch,
-                     "End with the first pair that is beyond its limit or has no answer"}},
+           .uses = {{kBatch, "End with the first pair that is beyond its limit or has no answer"}},
            .unlike = kHost},
           {.name = "list",
            .kind = Kind::kInput,
-           .group = Group::kBatch,
+           .group = Group::kMany,
            .target = to<&ManyRequest::list>,
            .uses = {{kMerge,
                      "Name the pairs of this list that have no result; exit code 3 if there are "
@@ -616,14 +619,14 @@ std::vector<Option> options_of_many() {
            .shape = "LIST"},
           {.name = "reproducible",
            .kind = Kind::kFlag,
-           .group = Group::kBatch,
+           .group = Group::kMany,
            .target = to<&ManyRequest::reproducible>,
            .uses = {{kMerge,
                      "Leave out times, hosts and devices, so that two runs can be compared byte "
                      "for byte"}}},
           {.name = "together",
            .kind = Kind::kCount,
-           .group = Group::kBatch,
+           .group = Group::kMany,
            .target = to<&StreamOptions::together>,
            .uses = {{kBatch, "Pairs side by side on a device [16 on a GPU, 1 on a CPU]"}},
            .functions = kPyMany,
@@ -632,7 +635,7 @@ std::vector<Option> options_of_many() {
            .unlike = kHost},
           {.name = "lanes",
            .kind = Kind::kCount,
-           .group = Group::kBatch,
+           .group = Group::kMany,
            .target = to<&StreamOptions::lanes>,
            .uses = {{kBatch, "Groups of them at a time on a device [3 on a GPU, 1 on a CPU]"}},
            .functions = kPyMany,
@@ -641,7 +644,7 @@ std::vector<Option> options_of_many() {
            .unlike = kHost},
           {.name = "read-ahead",
            .kind = Kind::kSize,
-           .group = Group::kBatch,
+           .group = Group::kMany,
            .target = to<&ManyRequest::read_ahead_bytes>,
            .uses = {{kBatch, "Memory for meshes that are read and not solved yet [2GiB]"}},
            .unlike = kHost}};
@@ -663,8 +666,7 @@ std::vector<Option> options_of_cost() {
        .kind = Kind::kText,
        .group = Group::kCost,
        .target = to<&Question::device>,
-       .uses = {{kDistance,
-                 device + "; several, 0,1, or all GPUs, each for a part of A" + best},
+       .uses = {{kDistance, device + "; several, 0,1, or all GPUs, each for a part of A" + best},
                 {kGate | kMetrics | kSimplify | kDemo | kDoctor, device + best},
                 {kBatch,
                  "Devices, between commas, as 'doctor' names them; all: every GPU [the best]"}},
@@ -681,7 +683,13 @@ std::vector<Option> options_of_cost() {
                  "Answer after so long, from the program's start: 250ms, 10s, 2min [no limit]"},
                 {kBatch, "End a pair's run after so long: 250ms, 10s, 2min [no limit]"}},
        .few = kPair | kSimplify | kDemo,
-       .functions = kPySolving | kPySimplify | kPyLevels},
+       .functions = kPySolving | kPySimplify},
+      {.name = "survey-time",
+       .kind = Kind::kTime,
+       .group = Group::kCost,
+       .target = to<&Question::survey_time_s>,
+       .uses = {},  // the program has one limit for all work
+       .functions = kPySolving},
       {.name = "memory",
        .kind = Kind::kSize,
        .group = Group::kCost,
@@ -724,8 +732,7 @@ std::vector<Option> options_of_cost() {
        .kind = Kind::kFlag,
        .group = Group::kCost,
        .target = Own{put_no_cache, nullptr},
-       .uses = {{kSolving,
-                 "Neither read nor write compiled pipelines in the user's cache folder"}},
+       .uses = {{kSolving, "Neither read nor write compiled pipelines in the user's cache folder"}},
        .unlike = kHost}};
 }
 
@@ -773,15 +780,26 @@ const Option* column_of(std::string_view name) {
 }
 
 const Option* keyword_of(Functions function, std::string_view name) {
-  return first([&](const Option& o) {
-    return (o.functions & function) != 0 && keyword_name(o) == name;
-  });
+  return first(
+      [&](const Option& o) { return (o.functions & function) != 0 && keyword_name(o) == name; });
 }
 
 std::string column_name(const Option& option) { return with_underscores(option.name); }
 
 std::string keyword_name(const Option& option) {
   return *option.keyword != '\0' ? option.keyword : with_underscores(option.name);
+}
+
+std::string keyword_default(const Option& option, Functions function) {
+  const std::string_view name = option.name;
+  if (name == "tol") return function == kPyMany ? "None" : function == kPyGate ? "1e-7" : "1e-6";
+  if (name == "field-tol") return "False";
+  if (name == "polygons") return "'refuse'";
+  if (name == "bodies") return "'solid'";
+  if (name == "preset" || name == "device") return "''";
+  if (option.kind == Kind::kFlag) return "False";
+  if (option.kind == Kind::kPercentile) return "95";
+  return option.kind == Kind::kNames || option.kind == Kind::kLengths ? "()" : "None";
 }
 
 const Use* use_of(const Option& option, Commands command) {
@@ -830,8 +848,7 @@ std::string shape_of(const Option& option) {
       break;
   }
   std::string choices;
-  for (const std::string& choice : option.choices)
-    choices += (choices.empty() ? "" : "|") + choice;
+  for (const std::string& choice : option.choices) choices += (choices.empty() ? "" : "|") + choice;
   return choices;
 }
 

@@ -30,15 +30,15 @@ enum class Kind {
   kShare,      ///< of area
   kPercentile,
   kAngle,
-  kSize,   ///< of memory or a file
+  kSize,  ///< of memory or a file
   kTime,
-  kCount,  ///< from Option::least to Option::most
-  kNumber, ///< from Option::least to Option::most
-  kPart,   ///< I/N
+  kCount,   ///< from Option::least to Option::most
+  kNumber,  ///< from Option::least to Option::most
+  kPart,    ///< I/N
 };
 
 /// The headings of --help-all, in its order.
-enum class Group { kQuestion, kPlacement, kOutput, kDrawing, kBatch, kCost };
+enum class Group { kQuestion, kPlacement, kOutput, kDrawing, kMany, kCost };
 const char* heading_of(Group group);
 
 /// A text that was given for an option, and the option's name in messages: --unit-a of the command
@@ -73,10 +73,10 @@ struct Use {
   bool required = false;
 };
 
-/// The functions of Python that take a keyword.
+/// The functions of Python that take a keyword, one bit each.
 using Functions = uint32_t;
 constexpr Functions kPyDistance = 1, kPyGate = 2, kPyMetrics = 4, kPyMany = 8, kPySolver = 16,
-                    kPyRead = 32, kPySimplify = 64, kPyLevels = 128;
+                    kPyRead = 32, kPySimplify = 64;
 
 struct Option {
   const char* name;
@@ -84,15 +84,15 @@ struct Option {
   Group group;
   Target target;
   std::vector<Use> uses;
-  Commands few = 0;            ///< the commands whose --help shows it
-  bool is_column = false;      ///< of lists
-  Functions functions = 0;     ///< of Python
-  const char* keyword = "";    ///< Python's name, where it is another one
-  const char* shape = "";      ///< of its value in help; empty: the kind's
+  Commands few = 0;                       ///< the commands whose --help shows it
+  bool is_column = false;                 ///< of lists
+  Functions functions = 0;                ///< of Python
+  const char* keyword = "";               ///< Python's name, where it is another one
+  const char* shape = "";                 ///< of its value in help; empty: the kind's
   std::vector<std::string> choices = {};  ///< of other kinds than kChoice and kNames: some of many
-  double least = 0, most = 0;  ///< of counts and numbers
-  std::vector<std::string> also = {};  ///< what people call it, in lower case without blanks
-  const char* unlike = "";     ///< why two values are one question: not part of a pair's key
+  double least = 0, most = 0;             ///< of counts and numbers
+  std::vector<std::string> also = {};     ///< what people call it, in lower case without blanks
+  const char* unlike = "";  ///< why two values are one question: not part of a pair's key
 };
 
 /// All options, in the order of their help.
@@ -108,11 +108,19 @@ const Option* keyword_of(Functions function, std::string_view name);
 std::string column_name(const Option& option);
 std::string keyword_name(const Option& option);
 
+/// The default of a keyword, as Python writes it.
+std::string keyword_default(const Option& option, Functions function);
+
 /// How a command has the option; null: it does not.
 const Use* use_of(const Option& option, Commands command);
 
 /// The shape of its value in help: LENGTH, FILE, fan|any; empty for a flag.
 std::string shape_of(const Option& option);
+
+/// Whether a count or a number is within the option's limits.
+inline bool is_within(const Option& option, double number) {
+  return number >= option.least && number <= option.most;
+}
 
 /// Puts what was given in its place. Throws UsageError that names the option, the text and the
 /// expected form.

@@ -15,10 +15,10 @@
 
 namespace vkh {
 
-/// A set of commands, one bit each.
+/// A set of commands, one bit each; a call from Python is one, too.
 using Commands = uint32_t;
 constexpr Commands kDistance = 1, kGate = 2, kMetrics = 4, kBatch = 8, kMerge = 16, kSimplify = 32,
-                   kDemo = 64, kDoctor = 128;
+                   kDemo = 64, kDoctor = 128, kPython = 256;
 
 /// The look of pictures, as it was typed; style_of() of host/show reads it.
 struct Look {
@@ -67,7 +67,7 @@ struct SimplifyRequest {
 struct Request {
   Commands command = 0;  ///< one of them
   Question question;
-  bool metrics = false;          ///< Question::metrics is wanted, with these
+  bool metrics = false;  ///< Question::metrics is wanted, with these
   MetricsOptions metric_options;
   double time_limit_s = std::numeric_limits<double>::infinity();
   Outputs outputs;

@@ -12,6 +12,8 @@ namespace vkh {
 namespace {
 
 using Names = std::vector<std::string_view>;
+constexpr Commands kProgram = kPython - 1, kAll = kProgram | kPython;
+
 using When = std::function<bool(const Request&)>;
 
 /// `when` holds and one of `options` was given, or there are none: refused with what it says, where
@@ -20,7 +22,7 @@ struct Rule {
   Names options;
   When when;
   const char* says;
-  Commands of = ~Commands{0};
+  Commands of = kProgram;
 };
 
 bool any_of(const Request& asked, const Names& names) {
@@ -48,8 +50,8 @@ bool is_of_triangles(const Request& asked) {
 
 // Pairs of a list may ask for figures by themselves.
 bool has_no_survey(const Request& asked) {
-  const bool has_list = asked.command == kBatch && asked.many.against.empty() &&
-                        asked.many.files.size() == 1;
+  const bool has_list =
+      asked.command == kBatch && asked.many.against.empty() && asked.many.files.size() == 1;
   return !has_list && !asked.metrics && !asks_for_sides(asked) &&
          !any_of(asked, {"stats", "bands", "area", "field-tol", "image-dir", "report-dir"}) &&
          !any_of(asked, kCells);
@@ -65,7 +67,8 @@ std::vector<Rule> rules_of_placement() {
   return {
       {{"scale"},
        [](const Request& a) { return a.question.transform_file.empty() && !a.question.transform; },
-       "{scale}: allows a {transform} to stretch A; there is none"},
+       "{scale}: allows a {transform} to stretch A; there is none",
+       kAll},
       {{"save-transform"},
        without({"align", "transform"}),
        "{save-transform}: there is no matrix: ask for {align} or {transform}"}};
@@ -77,16 +80,15 @@ std::vector<Rule> rules_of_limits() {
        without({"symmetric"}),
        "{face-max-b}: limits of B's faces are asked about by {symmetric} alone"},
       {{"verify"}, is_by_face, "{verify}: is not to be had with {face-max}"},
-      {{"area"},
-       is_by_face,
-       "{area}: faces with limits of their own are asked about whole"},
+      {{"area"}, is_by_face, "{area}: faces with limits of their own are asked about whole", kAll},
       {{"symmetric"},
        [](const Request& asked) { return asked.question.face_limits_a.has_value(); },
-       "{max}: limits of A's faces say nothing of B's; ask for each direction apart"},
+       "{max}: limits of A's faces say nothing of B's; ask for each direction apart",
+       kAll},
       {{"certificate"},
        [](const Request& asked) { return asked.has("area") || is_by_face(asked); },
        "{certificate}: is of the interval, not to be had with {area} or {face-max}",
-       kDistance | kGate | kDemo},
+       kDistance | kGate | kDemo | kPython},
       {{"polygons"},
        [](const Request& asked) {
          return asked.question.limits.any_triangulation && is_of_triangles(asked);
@@ -147,14 +149,10 @@ std::vector<Rule> rules_of_figures() {
 
 std::vector<Rule> rules_of_pictures() {
   const Names look{"view", "up", "size", "range", "steps"};
-  return {{look,
-           without({"image", "report"}),
-           "{option}: is of a picture: ask for {image} or {report}",
-           kDistance | kGate | kDemo},
-          {look,
-           without({"image-dir", "report-dir"}),
-           "{option}: is of a picture: ask for {image-dir} or {report-dir}",
-           kBatch},
+  return {{look, without({"image", "report"}),
+           "{option}: is of a picture: ask for {image} or {report}", kDistance | kGate | kDemo},
+          {look, without({"image-dir", "report-dir"}),
+           "{option}: is of a picture: ask for {image-dir} or {report-dir}", kBatch},
           {{"map"},
            without({"image", "report", "field"}),
            "{map}: is of colours: ask for {image}, {report} or {field}",
@@ -214,8 +212,7 @@ void complete_outputs(Request& asked) {
   question.worst = question.worst || outputs.shows_cells();
   question.faces = question.faces || question.face_tolerance || outputs.field;
   question.statistics = question.statistics || outputs.report || outputs.figures;
-  question.hashes =
-      outputs.json || outputs.json_file || outputs.report || outputs.certificate;
+  question.hashes = outputs.json || outputs.json_file || outputs.report || outputs.certificate;
 }
 
 void complete_batch(Request& asked) {

@@ -92,9 +92,9 @@ Places places_of(const Request& asked) {
   const Question& question = asked.question;
   const std::vector<std::string> inputs = {question.file_a, question.file_b, question.face_max_a,
                                            question.face_max_b, question.transform_file};
-  return {.destinations =
-              Destinations(asked.outputs, inputs, case_name_of(asked), question.verbose),
-          .pictures = Pictures(asked.outputs, question.symmetric, inputs)};
+  return {
+      .destinations = Destinations(asked.outputs, inputs, case_name_of(asked), question.verbose),
+      .pictures = Pictures(asked.outputs, question.symmetric, inputs)};
 }
 
 /// Reports the misuse of words that name no place for an answer, or not yet: programs may wait for
@@ -134,8 +134,7 @@ bool examine_and_write(const Request& asked) {
   const bool is_json = outputs.json;
   if (!is_json && !outputs.json_file) return examine_devices(std::cout, device, nullptr);
   std::optional<OutputFile> file;
-  if (outputs.json_file)
-    file.emplace("--json", *outputs.json_file, std::vector<std::string>());
+  if (outputs.json_file) file.emplace("--json", *outputs.json_file, std::vector<std::string>());
   Json json;
   const auto write = [&] {
     const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';

@@ -15,9 +15,8 @@ namespace {
 const CLI::App& named(const CLI::App& program, const Words& words) {
   if (words.empty()) return program;
   const std::vector<const CLI::App*> commands = program.get_subcommands({});
-  const auto found = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* one) {
-    return one->get_name() == words[0];
-  });
+  const auto found = std::find_if(commands.begin(), commands.end(),
+                                  [&](const CLI::App* one) { return one->get_name() == words[0]; });
   return found == commands.end() ? program : **found;
 }
 

@@ -84,8 +84,7 @@ Destinations::Destinations(const Outputs& outputs, const std::vector<std::string
   }
   if (outputs.json_file) json_.emplace("--json", *outputs.json_file, taken);
   if (outputs.junit) junit_.emplace("--junit", *outputs.junit, taken);
-  if (outputs.transform)
-    transform_.emplace("--save-transform", *outputs.transform, taken);
+  if (outputs.transform) transform_.emplace("--save-transform", *outputs.transform, taken);
 }
 
 std::string Destinations::write(const Answer& answer) {

@@ -59,8 +59,7 @@ void Pictures::open(Files& files, const char* option, const std::optional<std::s
   if (symmetric) files.back.emplace(option, back_of(*path), inputs);
 }
 
-Pictures::Pictures(const Outputs& asked, bool symmetric,
-                   const std::vector<std::string>& inputs)
+Pictures::Pictures(const Outputs& asked, bool symmetric, const std::vector<std::string>& inputs)
     : asked_(asked), style_(style_of(asked.look)) {
   std::vector<std::string> taken;
   for (const std::string& input : inputs) {
@@ -102,8 +101,7 @@ std::string Pictures::write(const Answered& done) const {
       if (image) image->write(picture_of(side, done.answer, style_));
     }
     if (report_)
-      report_->write(
-          report_of(measured, pictures_of(measured, style_), style_, asked_.title));
+      report_->write(report_of(measured, pictures_of(measured, style_), style_, asked_.title));
   } catch (const Error& error) {  // a length that the files' units do not resolve, for example
     return error.what();
   }

@@ -47,9 +47,8 @@ CLI::Option* added(const Option& option, const Use& use, CLI::App& app, TypedOpt
 
 /// A command with few options shows all of them at once.
 bool is_short(Commands command) {
-  return std::none_of(options().begin(), options().end(), [&](const Option& option) {
-    return (option.few & command) != 0;
-  });
+  return std::none_of(options().begin(), options().end(),
+                      [&](const Option& option) { return (option.few & command) != 0; });
 }
 
 void add_option(const Option& option, const Use& use, const TypedCommand& of, TypedOption& typed) {
@@ -95,9 +94,10 @@ void put_typed(const Option& option, const TypedOption& typed, Commands command,
 }  // namespace
 
 Program::Program()
-    : app_("Encloses the directed Hausdorff distance h(A,B) of two triangle meshes in a certified "
-           "interval, or proves that it is within a limit or beyond.",
-           "vkhausdorff") {
+    : app_(
+          "Encloses the directed Hausdorff distance h(A,B) of two triangle meshes in a certified "
+          "interval, or proves that it is within a limit or beyond.",
+          "vkhausdorff") {
   app_.set_version_flag("-V,--version", std::string("vkhausdorff ") + program_version());
   app_.set_help_flag("-h,--help", "Show the options that are needed most, and end");
   app_.set_help_all_flag("--help-all", "Show all options, and end");

@@ -61,10 +61,7 @@ void check_further_levels(const SimplifyRequest& asked) {
 class SimplifyCommand {
  public:
   SimplifyCommand(const Request& asked, const Stop& stop)
-      : question_(asked.question),
-        asked_(asked.simplify),
-        outputs_(asked.outputs),
-        stop_(stop) {}
+      : question_(asked.question), asked_(asked.simplify), outputs_(asked.outputs), stop_(stop) {}
 
   /// Throws UsageError for files that cannot be written.
   void check_places() { places_ = places(); }
@@ -193,7 +190,8 @@ Written SimplifyCommand::write(const Mesh& mesh, const OutputFile& place, const 
       throw OutputError({.option = "--out",
                          .file = path,
                          .problem = "is farther from A as it is read back than as it was found"});
-    if (question_.hashes) written.file.sha256 = sha256_of(path_of(file), [] { return !is_interrupted(); });
+    if (question_.hashes)
+      written.file.sha256 = sha256_of(path_of(file), [] { return !is_interrupted(); });
   };
   place.write(to_mesh_file(mesh, format), measure);
   if (written.mesh.faces.empty()) measure(path);  // it was written over: its folder is not ours

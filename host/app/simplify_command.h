@@ -2,8 +2,8 @@
 #pragma once
 
 #include "host/answer/exit_code.h"
-#include "host/answer/stop.h"
 #include "host/answer/request.h"
+#include "host/answer/stop.h"
 
 namespace vkh {
 

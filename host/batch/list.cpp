@@ -141,8 +141,8 @@ void check_heading(const std::vector<std::string>& heading, uint64_t line, Colle
 /// be one or a thousand. A comma before a sign is between limits of two sides.
 void check_decimal_point(const std::string& name, const std::string& text, char separator) {
   const Option* option = column_of(name);
-  const bool is_length = option != nullptr && (option->kind == Kind::kLength ||
-                                               option->kind == Kind::kTolerance);
+  const bool is_length =
+      option != nullptr && (option->kind == Kind::kLength || option->kind == Kind::kTolerance);
   const size_t comma = text.find(',');
   if (separator != ';' || !is_length || comma == std::string::npos) return;
   const size_t behind = text.find_first_not_of(' ', comma + 1);

@@ -1,8 +1,8 @@
 #include "host/batch/picture_folders.h"
 
 #include <algorithm>
-#include <tuple>
 #include <exception>
+#include <tuple>
 
 #include "host/answer/merge.h"
 #include "host/answer/steps.h"
@@ -55,16 +55,15 @@ BatchFolders::BatchFolders(const Request& asked, const std::vector<Entry>& entri
   const auto& [images, reports] = std::tie(asked.many.image_folder, asked.many.report_folder);
   if (images) images_.emplace("--image-dir", *images, ".png");
   if (reports) reports_.emplace("--report-dir", *reports, ".html");
-  are_one_ = images && reports && place_of(*images) == place_of(*reports);
   for (const auto* folder : {&images_, &reports_}) {
     if (*folder) (*folder)->open(ids_of(entries), taken);
   }
+  are_one_ = images && reports && place_of(*images) == place_of(*reports);
 }
 
 std::string BatchFolders::key_of(const ResultName& name) const {
   const std::string effort = effort_ ? "\neffort " + std::to_string(*effort_) : "";
-  const std::string most =
-      max_distance_ ? "\nmax-distance " + max_distance_->requested : "";
+  const std::string most = max_distance_ ? "\nmax-distance " + max_distance_->requested : "";
   return name.key + "\n" + text_of(style_) + effort + most;
 }
 

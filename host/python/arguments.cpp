@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "host/answer/name_meant.h"
+#include "host/answer/options_table.h"
 #include "host/answer/session.h"
 #include "host/python/interpreter.h"
 #include "vkhausdorff/error.h"
@@ -29,18 +31,25 @@ std::string shown(py::handle given) {
   return "a value of type " + std::string(Py_TYPE(given.ptr())->tp_name);
 }
 
-std::string listed(const std::vector<const char*>& names, size_t from, size_t to) {
+std::string listed(const std::vector<std::string>& names, size_t from, size_t to) {
   std::string text;
-  for (size_t i = from; i < to; ++i) text += (text.empty() ? "" : ", ") + std::string(names[i]);
+  for (size_t i = from; i < to; ++i) text += (text.empty() ? "" : ", ") + names[i];
   return text;
 }
 
-std::string function_of(const Signature& signature) {
-  return std::string(signature.function) + "()";
-}
+std::string function_of(const Signature& signature) { return signature.function + "()"; }
 
 [[noreturn]] void refuse_stranger(const Signature& signature, const std::string& name) {
-  throw py::type_error(function_of(signature) + " has no argument '" + name + "'; it takes " +
+  std::vector<KnownName> known;
+  for (const std::string& one : signature.names) known.push_back({.name = one});
+  for (const Option& option : options()) {
+    for (KnownName& one : known) {
+      if (one.name == keyword_name(option)) one.also = option.also;
+    }
+  }
+  const std::string meant = name_meant(name, known);
+  throw py::type_error(function_of(signature) + " has no argument '" + name + "'; " +
+                       (meant.empty() ? "" : "did you mean " + meant + "? ") + "it takes " +
                        listed(signature.names, 0, signature.names.size()));
 }
 

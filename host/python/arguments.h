@@ -12,8 +12,8 @@
 namespace vkh::python {
 
 struct Signature {
-  const char* function;
-  std::vector<const char*> names;
+  std::string function;
+  std::vector<std::string> names;
   size_t required;    ///< number of them, from the first, that must be there
   size_t positional;  ///< number that may be given by position
 };

@@ -1,10 +1,9 @@
 #include "host/python/many.h"
 
-#include "host/answer/quantities.h"
 #include "host/python/arguments.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
-#include "host/python/question.h"
+#include "host/python/keywords.h"
 #include "host/python/session.h"
 #include "vkhausdorff/error.h"
 
@@ -34,24 +33,17 @@ Result streamed_result(const Question& question, FlowResult&& found) {
   return result;
 }
 
-size_t count_of(const Arguments& given, const char* name) {
+constexpr const char* kDevice =
+    "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, or "
+    "'all'";
+
+size_t ahead_of(const Arguments& given) {
   constexpr const char* kExpected = "a whole number from 1 to 65536, or None";
   constexpr uint64_t kMost = 65536;
-  const std::optional<uint64_t> count = given.whole(name, kExpected);
+  const std::optional<uint64_t> count = given.whole("ahead", kExpected);
   if (!count) return 0;
-  if (*count == 0 || *count > kMost) refuse_value(name, kExpected, given.at(name));
+  if (*count == 0 || *count > kMost) refuse_value("ahead", kExpected, given.at("ahead"));
   return static_cast<size_t>(*count);
-}
-
-StreamOptions devices_of(const Arguments& given) {
-  constexpr const char* kDevice =
-      "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, or "
-      "'all'";
-  StreamOptions devices;
-  devices.devices = given.devices(kDevice);
-  devices.together = count_of(given, "together");
-  devices.lanes = count_of(given, "lanes");
-  return devices;
 }
 
 bool is_given(const Arguments& given, const char* name) {
@@ -61,13 +53,11 @@ bool is_given(const Arguments& given, const char* name) {
 
 FlowQuestion asked_from(const Arguments& given) {
   FlowQuestion asked;
-  asked.question = question_of("distances", given);
-  asked.question.limits = limits_of(given);
-  const PointSides points = point_sides(given);
-  asked.question.points_a = points.a;
-  asked.question.points_b = points.b;
-  asked.ahead = count_of(given, "ahead");
-  asked.devices = devices_of(given);
+  Request request = request_of(kPyMany, "distances", given);
+  asked.question = std::move(request.question);
+  asked.ahead = ahead_of(given);
+  asked.devices = std::move(request.many.devices);
+  asked.devices.devices = given.devices(kDevice);
   if (is_given(given, "against"))
     asked.against =
         kept(mesh_of("against", "B", given.at("against"), asked.question.limits_of(true)));
@@ -85,15 +75,8 @@ py::object failed(size_t index, const py::object& id, const py::object& error) {
 }  // namespace
 
 PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "distances",
-      {"against",    "tol",       "symmetric", "max",      "device",      "time",
-       "waves",      "memory",    "disable",   "enable",   "preset",      "together",
-       "lanes",      "ahead",     "max_input", "polygons", "bodies",      "field",
-       "statistics", "signed",    "bands",     "effort",   "survey_time", "unit_a",
-       "unit_b",     "transform", "scale",     "align",    "points",      "max_distance"},
-      0,
-      0};
+  static const auto* signature =
+      new Signature(signature_of(kPyMany, "distances", {"against", "ahead"}, 0, 0));
   const Call call;
   const Arguments given(*signature, positional, named);
   mark_used();
@@ -165,7 +148,10 @@ PythonStream::~PythonStream() { close(); }
 void define_many(py::module_& m) {
   constexpr const char* kName = "_Stream";
   py::class_<PythonStream>(m, kName, "What stands behind distances().")
-      .def(py::init<const py::args&, const py::kwargs&>())
+      .def(py::init<const py::args&, const py::kwargs&>(),
+           ("__init__(self, *, against=None, ahead=None, " + keywords_text(kPyMany, {}) +
+            ")\n--\n\n")
+               .c_str())
       .def("has_room",
            [](const py::object& self) { return made<PythonStream>(self, kName).has_room(); })
       .def("put",

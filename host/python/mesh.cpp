@@ -13,8 +13,8 @@
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
 #include "host/python/interpreter.h"
+#include "host/python/keywords.h"
 #include "host/python/python_tree.h"
-#include "host/python/question.h"
 #include "host/python/result.h"
 #include "host/python/session.h"
 #include "host/read/file_mesh_builder.h"
@@ -319,11 +319,11 @@ void refuse_faces(const char* argument, const Mesh& mesh) {
 
 FileMesh read(const py::args& positional, const py::kwargs& named) {
   static const auto* signature =
-      new Signature{"read", {"path", "max_input", "polygons", "bodies", "points"}, 1, 1};
+      new Signature(signature_of(kPyRead, "read", {"path", "points"}, 1, 1));
   const Call call;
   const Arguments given(*signature, positional, named);
   const py::object& path = given.at("path");
-  ReadLimits limits = limits_of(given);
+  ReadLimits limits = request_of(kPyRead, "read", given).question.limits;
   limits.points = given.flag("points");
   if (is_path(path)) return {read_now(file_from("path", path), limits)};
   if (!limits.points)
@@ -451,24 +451,6 @@ MeshGiven mesh_given(const char* argument, const std::string& name, const py::ob
   }
   const py::tuple arrays = checked_arrays(argument, object);
   return {.mesh = {}, .file = {}, .arrays = raw_mesh_from(name, arrays[0], arrays[1])};
-}
-
-ReadLimits limits_of(const Arguments& given) {
-  ReadLimits limits;
-  limits.max_input_bytes = size_of(given, "max_input").value_or(limits.max_input_bytes);
-  constexpr const char* kPolygons =
-      "'refuse', 'fan' for the fan of what has no triangulation, or 'any' for all triangulations";
-  const std::string polygons = given.text("polygons", kPolygons);
-  if (polygons == "fan") limits.odd_polygons = OddPolygons::kFanned;
-  limits.any_triangulation = polygons == "any";
-  if (!polygons.empty() && polygons != "fan" && polygons != "any" && polygons != "refuse")
-    refuse_value("polygons", kPolygons, given.at("polygons"));
-  constexpr const char* kBodies = "'solid', or 'all' for everything as it lies";
-  const std::string bodies = given.text("bodies", kBodies);
-  if (bodies == "all") limits.bodies = Bodies::kAll;
-  if (!bodies.empty() && bodies != "all" && bodies != "solid")
-    refuse_value("bodies", kBodies, given.at("bodies"));
-  return limits;
 }
 
 MeshPointer made_mesh(MeshGiven given, ReadLimits limits) {

@@ -65,8 +65,6 @@ PointSides point_sides(const Arguments& given);
 /// place of the last two.
 MeshGiven mesh_given(const char* argument, const std::string& name, const pybind11::object& object,
                      bool are_points = false);
-/// Reads the keyword max_input.
-ReadLimits limits_of(const Arguments& given);
 /// Makes the mesh on any thread. Throws FileFault, what read_mesh and make_mesh throw.
 MeshPointer made_mesh(MeshGiven given, ReadLimits limits);
 

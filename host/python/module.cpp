@@ -7,6 +7,7 @@
 #include "host/python/field.h"
 #include "host/python/flow.h"
 #include "host/python/interpreter.h"
+#include "host/python/keywords.h"
 #include "host/python/many.h"
 #include "host/python/python_tree.h"
 #include "host/python/solver.h"
@@ -17,57 +18,78 @@ namespace {
 
 namespace py = pybind11;
 
+/// A function's text: its signature as inspect.signature reads it, whose last keywords are those of
+/// the table, and what it does.
+std::string documented(const std::string& begin, Functions function,
+                       const std::vector<std::string>& own, const char* text) {
+  return begin + keywords_text(function, own) + ")\n--\n\n" + text;
+}
+
 void define_distance(py::module_& m) {
   m.def(
       "distance", distance,
-      "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, device='', time=None, waves=None,\n"
-      "         memory=None, disable=(), progress=None, enable=(), preset='', field=False,\n"
-      "         statistics=False, signed=False, bands=(), effort=None, survey_time=None,\n"
-      "         certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,\n"
-      "         align=False, on_progress=None,\n"
-      "         max_distance=None, points=None)\n--\n\n"
-      "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
-      "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what read()\n"
-      "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
-      "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: a\n"
-      "fraction of the diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'.\n"
-      "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as 0,\n"
-      "part of a name or a Device. progress(wave, lower, upper) hears the search alone;\n"
-      "on_progress(fraction, lower, upper) all work: the fraction grows to 1, which comes last, "
-      "and\n"
-      "the interval of the answer narrows. Either may return False to cancel. preset: 'default',\n"
-      "'paper' or 'baseline-gpu'; enable, disable: lists of switches, besides. The interval is\n"
-      "true whatever ended the run. TypeError or ValueError for wrong arguments, DeviceError for\n"
-      "the device. Ctrl-C ends a run.\n\n"
-      "field: also enclose the largest distance on each face of A (and of B if symmetric), to 1 %\n"
-      "of the largest, or to so much: a width as tol is. statistics: also enclose the mean over\n"
-      "A's area, the root mean square, percentiles and the whole distribution. bands: distances "
-      "in\n"
-      "the coordinates' unit, or strings as tol's: also enclose the share of A's area within "
-      "each.\n"
-      "signed: also tell where A is over B, in front of its faces as they are oriented, and where\n"
-      "under it; with statistics also the signed mean and percentiles. ValueError where two faces\n"
-      "of B are oriented against each other.\n"
-      "effort: the cells of each mesh that these may bound, besides each face once; the same\n"
-      "number gives the same bits on a device. None: 4000000 on a CPU, 10000000 on a GPU.\n"
-      "max_distance: leave out of the statistics what is farther from B, such as a scan's strays;\n"
-      "survey.kept is the share that they are of. The distance and verdicts are of all of A.\n"
-      "survey_time: the seconds that they may take of each mesh, besides time; None for no "
-      "limit.\n\n"
-      "certificate: a path that ends in .vhc: also write a proof of the interval, which vkh_check\n"
-      "checks for files that have the arrays' faces, in their order. What it proves is in\n"
-      "stats['certificate']; None, and no file, where the run ended before it had an upper "
-      "bound.\n\n"
-      "unit_a, unit_b: what A and B are in, 'um', 'mm', 'cm', 'm', 'in' or 'ft'; where they "
-      "differ, A\n"
-      "is converted to B's unit. transform: a matrix that then places A, four rows of four "
-      "numbers,\n"
-      "the last 0 0 0 1, or the path of a text file that has them; scale=True allows one that\n"
-      "stretches by more than 1e-6. The rounding of both widens the interval. align: then lay A "
-      "onto\n"
-      "B as align() does; stats['transform'] has the matrix.\n\n"
-      "points: True or 'a': A is points alone, an array (n, 3), an object that has .vertices or\n"
-      ".points and no faces, or the path of such a file; 'b' says so of B, 'both' of both.");
+      documented(
+          "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, progress=None, "
+          "on_progress=None, ",
+          kPyDistance, {"tol", "symmetric"},
+          "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
+          "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what "
+          "read()\n"
+          "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
+          "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: "
+          "a\n"
+          "fraction of the diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'.\n"
+          "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as 0,\n"
+          "part of a name or a Device. progress(wave, lower, upper) hears the search alone;\n"
+          "on_progress(fraction, lower, upper) all work: the fraction grows to 1, which comes "
+          "last, "
+          "and\n"
+          "the interval of the answer narrows. Either may return False to cancel. preset: "
+          "'default',\n"
+          "'paper' or 'baseline-gpu'; enable, disable: lists of switches, besides. The interval "
+          "is\n"
+          "true whatever ended the run. TypeError or ValueError for wrong arguments, DeviceError "
+          "for\n"
+          "the device. Ctrl-C ends a run.\n\n"
+          "field: also enclose the largest distance on each face of A (and of B if symmetric), to "
+          "1 %\n"
+          "of the largest, or to so much: a width as tol is. statistics: also enclose the mean "
+          "over\n"
+          "A's area, the root mean square, percentiles and the whole distribution. bands: "
+          "distances "
+          "in\n"
+          "the coordinates' unit, or strings as tol's: also enclose the share of A's area within "
+          "each.\n"
+          "signed: also tell where A is over B, in front of its faces as they are oriented, and "
+          "where\n"
+          "under it; with statistics also the signed mean and percentiles. ValueError where two "
+          "faces\n"
+          "of B are oriented against each other.\n"
+          "effort: the cells of each mesh that these may bound, besides each face once; the same\n"
+          "number gives the same bits on a device. None: 4000000 on a CPU, 10000000 on a GPU.\n"
+          "max_distance: leave out of the statistics what is farther from B, such as a scan's "
+          "strays;\n"
+          "survey.kept is the share that they are of. The distance and verdicts are of all of A.\n"
+          "survey_time: the seconds that they may take of each mesh, besides time; None for no "
+          "limit.\n\n"
+          "certificate: a path that ends in .vhc: also write a proof of the interval, which "
+          "vkh_check\n"
+          "checks for files that have the arrays' faces, in their order. What it proves is in\n"
+          "stats['certificate']; None, and no file, where the run ended before it had an upper "
+          "bound.\n\n"
+          "unit_a, unit_b: what A and B are in, 'um', 'mm', 'cm', 'm', 'in' or 'ft'; where they "
+          "differ, A\n"
+          "is converted to B's unit. transform: a matrix that then places A, four rows of four "
+          "numbers,\n"
+          "the last 0 0 0 1, or the path of a text file that has them; scale=True allows one that\n"
+          "stretches by more than 1e-6. The rounding of both widens the interval. align: then lay "
+          "A "
+          "onto\n"
+          "B as align() does; stats['transform'] has the matrix.\n\n"
+          "points: True or 'a': A is points alone, an array (n, 3), an object that has .vertices "
+          "or\n"
+          ".points and no faces, or the path of such a file; 'b' says so of B, 'both' of both.")
+          .c_str());
 }
 
 py::list devices() {
@@ -96,18 +118,16 @@ void define_devices(py::module_& m) {
 
 void define_gate(py::module_& m) {
   m.def("gate", gate,
-        "gate(a, b, max, *, tol=1e-7, symmetric=False, device='', time=None,\n"
-        "     waves=None, memory=None, disable=(), progress=None, enable=(), preset='',\n"
-        "     field=False, statistics=False, signed=False, bands=(), area=None, effort=None,\n"
-        "     survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, "
-        "scale=False,\n"
-        "     align=False, worst=False, on_progress=None,\n"
-        "     max_distance=None)\n--\n\n"
-        "Whether h(A,B) <= max, proven either way: the result's verdict.");
+        documented("gate(a, b, max, *, progress=None, on_progress=None, ", kPyGate, {"max"},
+                   "Whether h(A,B) <= max, proven either way: the result's verdict.")
+            .c_str());
 }
 
 void define_metrics(py::module_& m) {
-  m.def("_metrics", metrics, "As vkhausdorff.metrics, of meshes: a Result with stats['metrics'].");
+  m.def("_metrics", metrics,
+        documented("_metrics(a, b, *, progress=None, on_progress=None, ", kPyMetrics, {},
+                   "As vkhausdorff.metrics, of meshes: a Result with stats['metrics'].")
+            .c_str());
 }
 
 void define_simplify(py::module_& m) {
@@ -209,13 +229,9 @@ void define_solver(py::module_& m) {
           [](const py::object& self, const py::args& positional, const py::kwargs& named) {
             return made<PythonSolver>(self, "Solver").distance(positional, named);
           },
-          "distance(self, va, fa, tol=1e-6, *, time=None, waves=None, memory=None, disable=(),\n"
-          "         progress=None, enable=(), preset='', field=False, statistics=False,\n"
-          "         signed=False, bands=(), effort=None, survey_time=None, certificate=None, "
-          "unit_a=None,\n"
-          "         unit_b=None, transform=None, scale=False, align=False, on_progress=None,\n"
-          "         max_distance=None, points=None)\n--\n\n"
-          "As vkhausdorff.distance, from A to the Solver's B.")
+          documented("distance(self, va, fa, tol=1e-6, *, progress=None, on_progress=None, ",
+                     kPySolver, {"tol"}, "As vkhausdorff.distance, from A to the Solver's B.")
+              .c_str())
       .def(
           "closest",
           [](const py::object& self, const py::args& positional, const py::kwargs& named) {

@@ -10,7 +10,7 @@
 #include "host/base/float_environment.h"
 #include "host/base/output_file.h"
 #include "host/python/interpreter.h"
-#include "host/python/question.h"
+#include "host/python/keywords.h"
 #include "vkhausdorff/align.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/frame.h"
@@ -71,17 +71,11 @@ py::object callback_of(const Arguments& given, const char* name, const char* exp
   return *callback;
 }
 
-/// Reads the keyword `certificate`: a text, or an object from which os.fspath() makes one. Checks
-/// the place before anything is run.
-std::unique_ptr<OutputFile> certificate_file(const Arguments& given) {
-  constexpr const char* kExpected = "the path of a file that ends in .vhc, or None";
-  const py::object* path = given.find("certificate");
-  if (path == nullptr || path->is_none()) return nullptr;
-  py::object text = *path;
-  if (py::hasattr(text, "__fspath__")) text = py::module_::import("os").attr("fspath")(text);
-  const std::string file = text_from("certificate", kExpected, text);
-  if (!file.ends_with(".vhc")) refuse_value("certificate", kExpected, text);
-  return std::make_unique<OutputFile>("certificate", file, std::vector<std::string>{});
+/// Checks the place of a certificate before anything is run.
+std::unique_ptr<OutputFile> certificate_file(const Outputs& outputs) {
+  if (!outputs.certificate) return nullptr;
+  return std::make_unique<OutputFile>("certificate", *outputs.certificate,
+                                      std::vector<std::string>{});
 }
 
 /// A call: its question, its meshes, and the outputs besides the result.
@@ -92,19 +86,17 @@ struct Given {
   MeshPointer a, b;
   MeshShape shape_b;
 
-  Given(const char* command, const Arguments& given, MeshPointer mesh_a, KeptMesh mesh_b)
-      : question(question_of(command, given)),
-        progress(callback_of(given, "progress", "a function of wave, lower and upper, or None")),
+  Given(Functions function, const char* command, const Arguments& given, MeshPointer mesh_a,
+        KeptMesh mesh_b)
+      : progress(callback_of(given, "progress", "a function of wave, lower and upper, or None")),
         on_progress(
             callback_of(given, "on_progress", "a function of fraction, lower and upper, or None")),
-        certificate(certificate_file(given)),
         a(std::move(mesh_a)),
         b(std::move(mesh_b.mesh)),
         shape_b(mesh_b.shape) {
-    question.certificate = certificate != nullptr;
-    if (question.certificate && (question.area || question.is_by_face()))
-      throw UsageError(
-          "certificate: is of the interval, not to be had with area or limits of A's faces");
+    Request asked = request_of(function, command, given);
+    certificate = certificate_file(asked.outputs);
+    question = std::move(asked.question);
   }
 };
 
@@ -261,7 +253,8 @@ py::object simplified_of(const Simplified& found) {
 
 /// Reads the keywords of simplify(), but for the device.
 SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
-  const Question question = question_of("simplify", given);
+  const Request asked = request_of(kPySimplify, "simplify", given);
+  const Question& question = asked.question;
   constexpr const char* kExpected =
       "a positive number, in the coordinates' unit, or a string such as '0.1%' or '0.01abs'";
   if (!question.max) refuse_type("max", kExpected, given.at("max"));
@@ -269,8 +262,8 @@ SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
   const FloatEnvironment ours;
   SimplifyOptions options;
   options.max = limit_in_files(*question.max, "max", a.unit, diagonal_of(a));
-  options.one_way = given.flag("one_way");
-  options.lock_borders = given.flag("lock_borders");
+  options.one_way = asked.simplify.one_way;
+  options.lock_borders = asked.simplify.lock_borders;
   options.rounds_to_float = given.flag("float32");
   options.time_limit_s = question.options.time_limit_s;
   options.goes_on = [] { return goes_on(0); };
@@ -333,8 +326,8 @@ py::object closest(const py::args& positional, const py::kwargs& named) {
 }
 
 py::object simplified(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "simplify", {"a", "max", "one_way", "lock_borders", "float32", "time", "device"}, 2, 2};
+  static const auto* signature =
+      new Signature(signature_of(kPySimplify, "simplify", {"a", "max", "float32", "device"}, 2, 2));
   const Call call;
   const Arguments given(*signature, positional, named);
   const std::shared_ptr<Session> session = session_of(given);
@@ -350,11 +343,8 @@ py::object simplified(const py::args& positional, const py::kwargs& named) {
 }
 
 py::object simplified_levels(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "simplify_levels",
-      {"a", "max", "levels", "ratio", "one_way", "lock_borders", "float32", "time", "device"},
-      2,
-      2};
+  static const auto* signature = new Signature(signature_of(
+      kPySimplify, "simplify_levels", {"a", "max", "levels", "ratio", "float32", "device"}, 2, 2));
   const Call call;
   const auto start = std::chrono::steady_clock::now();
   const Arguments given(*signature, positional, named);
@@ -373,56 +363,37 @@ py::object simplified_levels(const py::args& positional, const py::kwargs& named
 }
 
 Result distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"distance",
-                    {"va",     "fa",          "vb",          "fb",           "tol",     "symmetric",
-                     "device", "time",        "waves",       "memory",       "disable", "progress",
-                     "enable", "preset",      "field",       "statistics",   "signed",  "bands",
-                     "effort", "survey_time", "certificate", "unit_a",       "unit_b",  "transform",
-                     "scale",  "align",       "on_progress", "max_distance", "points"},
-                    4,
-                    6};
+  static const auto* signature = new Signature(
+      signature_of(kPyDistance, "distance",
+                   {"va", "fa", "vb", "fb", "tol", "symmetric", "progress", "on_progress"}, 4, 6));
   const Call call;
   const py::args all = spread(positional, named, {"va", "fa", "vb", "fb"});
   const Arguments arguments(*signature, all, named);
   const PointSides points = point_sides(arguments);
-  return answered(
-      {"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa"), points.a),
-       kept(mesh_of("B", arguments.at("vb"), arguments.at("fb"), points.b))},
-      *session_of(arguments));
+  return answered({kPyDistance, "distance", arguments,
+                   mesh_of("A", arguments.at("va"), arguments.at("fa"), points.a),
+                   kept(mesh_of("B", arguments.at("vb"), arguments.at("fb"), points.b))},
+                  *session_of(arguments));
 }
 
 Result gate(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "gate",
-      {"a",      "b",           "max",         "tol",         "symmetric",    "device",
-       "time",   "waves",       "memory",      "disable",     "progress",     "enable",
-       "preset", "field",       "statistics",  "signed",      "bands",        "area",
-       "effort", "survey_time", "certificate", "unit_a",      "unit_b",       "transform",
-       "scale",  "align",       "worst",       "on_progress", "max_distance", "points"},
-      3,
-      3};
+  static const auto* signature = new Signature(
+      signature_of(kPyGate, "gate", {"a", "b", "max", "progress", "on_progress"}, 3, 3));
   const Call call;
   const Arguments arguments(*signature, positional, named);
   const PointSides points = point_sides(arguments);
-  return answered(
-      {"gate", arguments, mesh_of("a", "A", arguments.at("a"), ReadLimits{.points = points.a}),
-       kept(mesh_of("b", "B", arguments.at("b"), ReadLimits{.points = points.b}))},
-      *session_of(arguments));
+  return answered({kPyGate, "gate", arguments,
+                   mesh_of("a", "A", arguments.at("a"), ReadLimits{.points = points.a}),
+                   kept(mesh_of("b", "B", arguments.at("b"), ReadLimits{.points = points.b}))},
+                  *session_of(arguments));
 }
 
 Result metrics(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature =
-      new Signature{"metrics",
-                    {"a",      "b",           "percentile",  "bands",   "tol",      "device",
-                     "time",   "waves",       "memory",      "disable", "progress", "enable",
-                     "preset", "effort",      "survey_time", "unit_a",  "unit_b",   "transform",
-                     "scale",  "on_progress", "figures",     "normals"},
-                    3,
-                    2};
+  static const auto* signature = new Signature(
+      signature_of(kPyMetrics, "metrics", {"a", "b", "progress", "on_progress"}, 2, 2));
   const Call call;
   const Arguments arguments(*signature, positional, named);
-  return answered({"metrics", arguments, mesh_of("a", "A", arguments.at("a")),
+  return answered({kPyMetrics, "metrics", arguments, mesh_of("a", "A", arguments.at("a")),
                    kept(mesh_of("b", "B", arguments.at("b")))},
                   *session_of(arguments));
 }
@@ -487,14 +458,8 @@ std::shared_ptr<Session> PythonSolver::open_session() const {
 }
 
 Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
-  static const auto* signature = new Signature{
-      "Solver.distance",
-      {"va",       "fa",          "tol",          "time",   "waves",      "memory",    "disable",
-       "progress", "enable",      "preset",       "field",  "statistics", "signed",    "bands",
-       "effort",   "survey_time", "certificate",  "unit_a", "unit_b",     "transform", "scale",
-       "align",    "on_progress", "max_distance", "points"},
-      2,
-      3};
+  static const auto* signature = new Signature(signature_of(
+      kPySolver, "Solver.distance", {"va", "fa", "tol", "progress", "on_progress"}, 2, 3));
   const Call call;
   const std::shared_ptr<Session> session = open_session();
   const py::args all = spread(positional, named, {"va", "fa"});
@@ -502,9 +467,9 @@ Result PythonSolver::distance(const py::args& positional, const py::kwargs& name
   const PointSides points = point_sides(arguments);
   if (points.b)
     refuse_value("points", "True for a, 'a' or None: B is the Solver's", arguments.at("points"));
-  return answered(
-      {"distance", arguments, mesh_of("A", arguments.at("va"), arguments.at("fa"), points.a), b_},
-      *session, key_);
+  return answered({kPySolver, "distance", arguments,
+                   mesh_of("A", arguments.at("va"), arguments.at("fa"), points.a), b_},
+                  *session, key_);
 }
 
 py::object PythonSolver::closest(const py::args& positional, const py::kwargs& named) {

@@ -1,5 +1,4 @@
 // Lists of pairs, shards, and lines of results.
-#include "host/answer/quantities.h"
 #include "host/batch/list.h"
 
 #include <doctest/doctest.h>
@@ -13,6 +12,7 @@
 
 #include "host/answer/csv.h"
 #include "host/answer/json_object.h"
+#include "host/answer/quantities.h"
 #include "host/answer/result.h"
 #include "host/answer/tables.h"
 #include "host/base/byte_order_mark.h"

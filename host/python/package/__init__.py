@@ -4,6 +4,7 @@ from vkhausdorff import _core
 from vkhausdorff._align import Alignment
 from vkhausdorff._closest import Closest
 from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, align, closest, devices, distance, read, simplify, simplify_levels
+from vkhausdorff._keywords import takes_keywords_of
 from vkhausdorff._many import distances
 from vkhausdorff._metrics import Metrics, metrics
 from vkhausdorff._result import Witness
@@ -16,10 +17,8 @@ __all__ = ["Alignment", "Closest", "Device", "DeviceError", "Field", "Interval",
            "simplify_levels"]
 
 
-def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=None, memory=None, disable=(),
-         progress=None, enable=(), preset="", field=False, statistics=False, signed=False, bands=(), area=None,
-         effort=None, survey_time=None, certificate=None, unit_a=None, unit_b=None, transform=None, scale=False,
-         align=False, worst=False, on_progress=None, max_distance=None, points=None):
+@takes_keywords_of(_core.gate)
+def gate(a, b, max, **options):
     """Decides whether every point of A is within max of B, proven either way: see the result's verdict.
 
     a, b: (vertices, faces), as distance() takes them, objects with .vertices and .faces (or .triangles), what read()
@@ -32,11 +31,7 @@ def gate(a, b, max, *, tol=1e-7, symmetric=False, device="", time=None, waves=No
     within max or beyond, too. worst: after the verdict, go on to the farthest point, to a thousandth of its distance or for
     60 waves; without it the witness of 'fail' is beyond max, and no more is known. The rest is as in distance().
     """
-    return _core.gate(a, b, max, tol=tol, symmetric=symmetric, device=device, time=time, waves=waves, memory=memory,
-                      disable=disable, progress=progress, enable=enable, preset=preset, field=field, statistics=statistics,
-                      signed=signed, bands=bands, area=area, effort=effort, survey_time=survey_time, certificate=certificate,
-                      unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale, align=align, worst=worst,
-                      on_progress=on_progress, max_distance=max_distance, points=points)
+    return _core.gate(a, b, max, **options)
 
 
 def _say_area(r, max):

@@ -1,13 +1,11 @@
 """distances(): pairs in, results out, as they end. The threads and devices are those of vkhausdorff._core."""
 
 from vkhausdorff import _core
+from vkhausdorff._keywords import takes_keywords_of
 
 
-def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, device="", time=None, waves=None, memory=None,
-              disable=(), enable=(), preset="", together=None, lanes=None, ahead=None, max_input=None,
-              polygons="refuse", bodies="solid", field=False, statistics=False, signed=False, bands=(),
-              effort=None, survey_time=None, unit_a=None, unit_b=None, transform=None, scale=False, align=False, points=None,
-              on_progress=None, max_distance=None):
+@takes_keywords_of(_core._Stream)
+def distances(pairs, *, on_progress=None, **options):
     """The distance of each of many pairs: an iterator of results, in the order in which pairs end.
 
     pairs: an iterable, which may be endless, of (a, b) or (id, a, b). Each of a and b is a mesh: what read() returns, the
@@ -36,15 +34,12 @@ def distances(pairs, *, against=None, tol=None, symmetric=False, max=None, devic
         items = iter(pairs)
     except TypeError:
         raise TypeError(f"pairs: expected an iterable of (a, b) or (id, a, b), not {type(pairs).__name__}") from None
-    named = {} if tol is None else {"tol": tol}
     first = getattr(pairs, "first_index", 0)  # vkhausdorff.dask's shards have it
     progress = None if on_progress is None else Progress(on_progress, pairs, first)
-    stream = _core._Stream(against=against, symmetric=symmetric, max=max, device=device, time=time, waves=waves, memory=memory,
-                          disable=disable, enable=enable, preset=preset, together=together, lanes=lanes, ahead=ahead,
-                           max_input=max_input, polygons=polygons, bodies=bodies, field=field, statistics=statistics, signed=signed, bands=bands,
-                           effort=effort, survey_time=survey_time, unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale,
-                           align=align, points=points, max_distance=max_distance, **named)
-    split = _with_one if against is not None else _with_two
+    if options.get("tol", 0) is None:  # the default depends on whether there is a limit
+        del options["tol"]
+    stream = _core._Stream(**options)
+    split = _with_one if options.get("against") is not None else _with_two
     return _Results(stream, _results(stream, items, split, first, progress))
 
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from vkhausdorff import _core, _masks
 from vkhausdorff._core import Result
+from vkhausdorff._keywords import takes_keywords_of
 from vkhausdorff._survey import Interval, html_table, interval, plain_figures
 
 
@@ -116,9 +117,8 @@ def _without_surface(named, no_a, no_b):
     return replace(named, **lengths, **shares, normal_consistency=consistency, met=True, unmet=(), result=None)
 
 
-def metrics(a, b, *, percentile=95, bands=(), spacing=None, affine=None, tol=1e-6, device="", time=None, waves=None, memory=None,
-            disable=(), progress=None, enable=(), preset="", effort=None, survey_time=None, unit_a=None, unit_b=None,
-            transform=None, scale=False, on_progress=None, figures=(), normals=None, empty="error"):
+@takes_keywords_of(_core._metrics)
+def metrics(a, b, *, spacing=None, affine=None, empty="error", **options):
     """Encloses the figures of two surfaces that papers report: HD95, ASSD, Chamfer distances, surface Dice, F-scores.
 
     a, b: meshes, as distance() takes them; or two masks on one grid, arrays of three dimensions that are not 0 where the
@@ -136,12 +136,9 @@ def metrics(a, b, *, percentile=95, bands=(), spacing=None, affine=None, tol=1e-
         raise ValueError(f"empty: expected 'error' or 'inf', not {empty!r}")
     missing = (False, False)
     if _masks.is_mask(a) or _masks.is_mask(b):
-        (a, b), missing = _masks.surfaces(a, b, spacing, affine, bands, empty)
-        effort = 0 if any(missing) else effort  # the voxel only names the figures
+        (a, b), missing = _masks.surfaces(a, b, spacing, affine, options.get("bands", ()), empty)
+        options |= {"effort": 0} if any(missing) else {}  # the voxel only names the figures
     elif spacing is not None or affine is not None:
         raise TypeError(f"{'affine' if spacing is None else 'spacing'}: is of masks, arrays of three dimensions")
-    made = _made(_core._metrics(a, b, percentile=percentile, bands=bands, tol=tol, device=device, time=time, waves=waves,
-                                memory=memory, disable=disable, progress=progress, enable=enable, preset=preset, effort=effort,
-                                survey_time=survey_time, unit_a=unit_a, unit_b=unit_b, transform=transform, scale=scale,
-                                on_progress=on_progress, figures=figures, normals=normals))
+    made = _made(_core._metrics(a, b, **options))
     return _without_surface(made, *missing) if any(missing) else made

@@ -1,0 +1,438 @@
+#include "host/python/keywords.h"
+
+#include <pybind11/numpy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "host/answer/quantities.h"
+#include "host/answer/rules.h"
+#include "host/base/decimal.h"
+#include "host/base/float_environment.h"
+#include "host/base/system.h"
+#include "host/python/mesh.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/length.h"
+#include "vkhausdorff/place.h"
+
+namespace vkh::python {
+namespace {
+
+namespace py = pybind11;
+
+constexpr double kTolerance = 1e-6,
+                 kGateTolerance = 1e-7;  // of the diagonal, as the program has it
+
+/// A keyword's value, with its name and what was expected, for messages.
+struct Value {
+  const char* name;
+  const char* expected;
+  const py::object& given;
+
+  [[noreturn]] void refuse() const { refuse_value(name, expected, given); }
+  bool is_text() const { return py::isinstance<py::str>(given); }
+  std::string text() const { return text_from(name, expected, given); }
+};
+
+std::string or_none(const std::string& expected, bool takes_none) {
+  return expected + (takes_none ? ", or None" : "");
+}
+
+/// Whether None is as good as nothing.
+bool takes_none(const Option& option, Functions function) {
+  switch (option.kind) {
+    case Kind::kFlag:
+    case Kind::kTolerance:
+    case Kind::kNames:
+    case Kind::kLengths:
+    case Kind::kPercentile:
+      return false;
+    case Kind::kChoice:
+      return option.is_column;  // points
+    case Kind::kLength:
+      return (function & (kPyGate | kPySimplify)) == 0 || *option.name != 'm' ||
+             std::string_view(option.name) != "max";
+    default:
+      return true;
+  }
+}
+
+std::string named_choices(const Option& option) {
+  std::string text;
+  for (size_t i = 0; i < option.choices.size(); ++i) {
+    const bool is_last = i + 1 == option.choices.size();
+    text += (i == 0 ? "'" : is_last ? " or '" : ", '") + option.choices[i] + "'";
+  }
+  return text;
+}
+
+std::string expected_of_kind(const Option& option) {
+  switch (option.kind) {
+    case Kind::kFlag:
+      return "True or False";
+    case Kind::kTolerance:
+      return "a positive number, a fraction of A's diagonal, or a string such as '0.1%' or "
+             "'0.01abs'";
+    case Kind::kLength:
+      return "a positive number, in the coordinates' unit, a string such as '0.1%' or '0.01abs'";
+    case Kind::kLengths:
+      return "a list of positive numbers, in the coordinates' unit, or of strings such as '0.1%' "
+             "or '0.01abs'";
+    case Kind::kShare:
+      return "a share of the area above 0 and at most 1, such as 0.995 or '99.5%'";
+    case Kind::kPercentile:
+      return "a number above 0 and at most 100, such as 95, or '0.5%'";
+    case Kind::kAngle:
+      return "an angle above 0 and at most 90 degrees";
+    case Kind::kSize:
+      return "a number of bytes above 0, a string such as '2GiB'";
+    case Kind::kTime:
+      return "a number of seconds, 0 or more";
+    case Kind::kCount:
+      return "a whole number from " + shortest_decimal(option.least) + " to " +
+             std::to_string(static_cast<uint64_t>(option.most));
+    case Kind::kFile:
+      return "the path of a file that ends in .vhc";
+    case Kind::kInput:
+      return "an array of four rows of four numbers, the last 0 0 0 1, the path of such a file";
+    default:
+      return named_choices(option);
+  }
+}
+
+/// Reads a string such as '0.1%' or '0.01abs'. Arrays have no known unit: '0.1mm' is refused.
+Length length_from_text(const Value& value, PlainNumber plain) {
+  Length length;
+  try {
+    length = parse_length(value.name, value.text(), plain);
+  } catch (const UsageError&) {
+    value.refuse();
+  }
+  if (length.of == Length::Of::kUnit) value.refuse();
+  return length;
+}
+
+/// Reads a number, which is `of` that, or such a string.
+Length length_from(const Value& value, Length::Of of) {
+  if (value.is_text()) {
+    const bool is_fraction = of == Length::Of::kDiagonal;
+    return length_from_text(value, is_fraction ? PlainNumber::kFraction : PlainNumber::kRefused);
+  }
+  const double number = number_from(value.name, value.expected, value.given);
+  if (!(number > 0) || std::isinf(number)) value.refuse();
+  return {.requested = shortest_decimal(number), .number = number, .of = of, .is_double = true};
+}
+
+bool is_row(const py::object& given) {
+  if (py::isinstance<py::str>(given)) return false;
+  const auto array = py::array::ensure(given);
+  if (!array) PyErr_Clear();
+  return array && array.ndim() == 1;
+}
+
+std::vector<Length> lengths_from(const Value& value) {
+  const bool is_list =
+      py::isinstance<py::list>(value.given) || py::isinstance<py::tuple>(value.given);
+  if (!is_list && !(py::isinstance<py::array>(value.given) && is_row(value.given)))
+    refuse_type(value.name, "a list of distances", value.given);
+  std::vector<Length> lengths;
+  for (const py::handle one : value.given) {
+    const auto item = py::reinterpret_borrow<py::object>(one);
+    lengths.push_back(length_from({value.name, value.expected, item}, Length::Of::kFiles));
+  }
+  return lengths;
+}
+
+/// Reads a number of per cent, or "0.5%".
+double percentile_from(const Value& value) {
+  if (value.is_text()) {
+    const std::string text = value.text();
+    if (!text.ends_with('%')) refuse_type(value.name, value.expected, value.given);
+    return parse_percentile(value.name, text);
+  }
+  const double percentile = number_from(value.name, value.expected, value.given);
+  if (!(percentile > 0 && percentile <= 100)) value.refuse();
+  check_percentile(value.name, percentile);
+  return percentile;
+}
+
+/// Reads a number, or "99.5%".
+double share_from(const Value& value) {
+  if (!value.is_text()) {
+    const double share = number_from(value.name, value.expected, value.given);
+    if (!(share > 0 && share <= 1)) value.refuse();
+    return share;
+  }
+  const std::string text = value.text();
+  if (!text.ends_with('%')) value.refuse();
+  try {
+    return parse_share(value.name, text);
+  } catch (const UsageError&) {
+    value.refuse();
+  }
+}
+
+double number_of(const Option& option, const Value& value) {
+  if (option.kind == Kind::kPercentile) return percentile_from(value);
+  const double number = number_from(value.name, value.expected, value.given);
+  const bool is_one = option.kind == Kind::kTime ? number >= 0 : number > 0 && number <= 90;
+  if (!is_one) value.refuse();
+  return number;
+}
+
+uint64_t whole_of(const Option& option, const Arguments& all, const Value& value) {
+  if (option.kind == Kind::kSize && value.is_text()) return parse_size(value.name, value.text());
+  const uint64_t number = all.whole(value.name, value.expected).value_or(0);
+  const bool is_size = option.kind == Kind::kSize;
+  const bool is_one = is_size ? number > 0 : is_within(option, static_cast<double>(number));
+  if (!is_one) value.refuse();
+  return number;
+}
+
+std::string text_of(const Option& option, const Value& value) {
+  if (option.kind == Kind::kFile) {
+    const std::optional<std::string> path = path_from(value.name, value.given);
+    if (!path) refuse_type(value.name, value.expected, value.given);
+    if (!path->ends_with(".vhc")) value.refuse();
+    return *path;
+  }
+  std::string text = value.text();
+  const std::vector<std::string>& known = option.choices;
+  const bool is_default = text.empty() && option.kind == Kind::kChoice;
+  if (!is_default && std::find(known.begin(), known.end(), text) == known.end()) value.refuse();
+  return text;
+}
+
+// Rows that Python reads by a rule of its own.
+
+/// Reads the limits of A's faces. Of the whole, the largest is its limit.
+void read_face_limits(const Value& max, Question& question) {
+  refuse_masked("max", max.given);
+  const auto numbers =
+      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(max.given);
+  if (!numbers) PyErr_Clear();
+  if (!numbers) refuse_type("max", max.expected, max.given);
+  double largest = 0;
+  question.face_limits_a.emplace();
+  for (py::ssize_t i = 0; i < numbers.shape(0); ++i) {
+    question.face_limits_a->push_back({numbers.at(i), numbers.at(i)});
+    largest = std::max(largest, numbers.at(i));
+  }
+  question.max = Length{.requested = "limits of A's faces",
+                        .number = largest,
+                        .of = Length::Of::kFiles,
+                        .is_double = true};
+}
+
+void read_max(const Value& max, Functions function, Question& question) {
+  if (max.is_text()) question.max_sides = parse_sided("max", max.text());
+  if (question.max_sides) {
+    question.max = question.max_sides->over;
+  } else if (function == kPyGate && is_row(max.given)) {
+    read_face_limits(max, question);
+  } else {
+    question.max = length_from(max, Length::Of::kFiles);
+  }
+}
+
+void read_field(const Value& field, Question& question) {
+  question.faces = !is_bool(field.given) || py::cast<bool>(field.given);
+  if (!is_bool(field.given)) question.face_tolerance = length_from(field, Length::Of::kDiagonal);
+}
+
+MatrixRows matrix_from(const Value& value) {
+  refuse_masked("transform", value.given);
+  const auto numbers =
+      py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value.given);
+  if (!numbers) PyErr_Clear();
+  if (!numbers || numbers.ndim() != 2) refuse_type(value.name, value.expected, value.given);
+  const bool is_square = numbers.shape(0) == 4 && numbers.shape(1) == 4;
+  if (!is_square) value.refuse();
+  const double* entry = numbers.data();
+  if (entry[12] != 0 || entry[13] != 0 || entry[14] != 0 || entry[15] != 1) value.refuse();
+  MatrixRows rows;
+  for (size_t i = 0; i < 12; ++i) rows[i / 4][i % 4] = entry[i];
+  return rows;
+}
+
+void read_transform(const Value& value, Question& question) {
+  if (const std::optional<std::string> file = path_from("transform", value.given)) {
+    question.transform_file = *file;
+    question.transform = read_matrix(path_of(*file));
+  } else {
+    question.transform = matrix_from(value);
+  }
+}
+
+void read_polygons(const Value& value, ReadLimits& limits) {
+  const std::string text = value.text();
+  if (text == "fan") limits.odd_polygons = OddPolygons::kFanned;
+  limits.any_triangulation = text == "any";
+  if (!text.empty() && text != "fan" && text != "any" && text != "refuse") value.refuse();
+}
+
+struct OwnRow {
+  std::string_view name;
+  const char* expected;
+  void (*read)(const Value& value, Functions function, Request& asked);
+};
+
+const OwnRow* own_row(std::string_view name) {
+  static const OwnRow rows[] = {
+      {"max", "",
+       [](const Value& value, Functions f, Request& asked) { read_max(value, f, asked.question); }},
+      {"area", "",
+       [](const Value& value, Functions, Request& asked) {
+         asked.question.area = share_from(value);
+         asked.question.area_requested = py::cast<std::string>(py::str(value.given));
+       }},
+      {"field-tol",
+       "True or False, or how narrow each face's bounds are to be: a positive number, a fraction "
+       "of A's diagonal, or a string such as '0.1%' or '0.01abs'",
+       [](const Value& value, Functions, Request& asked) { read_field(value, asked.question); }},
+      {"points", "True for a, 'a', 'b' or 'both', or None",
+       [](const Value& value, Functions, Request& asked) {
+         const PointSides sides = point_sides(value.given);
+         asked.question.points_a = sides.a;
+         asked.question.points_b = sides.b;
+       }},
+      {"polygons",
+       "'refuse', 'fan' for the fan of what has no triangulation, or 'any' for all triangulations",
+       [](const Value& value, Functions, Request& asked) {
+         read_polygons(value, asked.question.limits);
+       }},
+      {"bodies", "'solid', or 'all' for everything as it lies",
+       [](const Value& value, Functions, Request& asked) {
+         const std::string text = value.text();
+         if (text != "solid" && text != "all" && !text.empty()) value.refuse();
+         asked.question.limits.bodies = text == "all" ? Bodies::kAll : Bodies::kSolid;
+       }},
+      {"transform", "", [](const Value& value, Functions, Request& asked) {
+         read_transform(value, asked.question);
+       }}};
+  const auto* const found = std::find_if(std::begin(rows), std::end(rows),
+                                         [&](const OwnRow& row) { return row.name == name; });
+  return found == std::end(rows) ? nullptr : found;
+}
+
+/// Puts a value in a member, by the member's type and the option's kind.
+struct Put {
+  const Option& option;
+  const Arguments& all;
+  const Value& value;
+  Request& asked;
+
+  template <class T>
+  T read() const {
+    if constexpr (std::is_same_v<T, bool>) return all.flag(value.name);
+    if constexpr (std::is_same_v<T, std::string>) return text_of(option, value);
+    if constexpr (std::is_same_v<T, Length>) {
+      const bool is_tolerance = option.kind == Kind::kTolerance;
+      return length_from(value, is_tolerance ? Length::Of::kDiagonal : Length::Of::kFiles);
+    }
+    if constexpr (std::is_same_v<T, double>) return number_of(option, value);
+    if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+      return static_cast<T>(whole_of(option, all, value));
+    if constexpr (std::is_same_v<T, PartOf>) value.refuse();
+  }
+  void operator()(const Own& /*own_row() has them*/) const { value.refuse(); }
+  template <class T>
+  void operator()(Member<T> member) const {
+    member(asked) = read<T>();
+  }
+  template <class T>
+  void operator()(Member<std::optional<T>> member) const {
+    member(asked) = read<T>();
+  }
+  void operator()(Member<std::vector<std::string>> member) const {
+    member(asked) = all.texts(value.name);
+  }
+  void operator()(Member<std::vector<Length>> member) const { member(asked) = lengths_from(value); }
+};
+
+/// What a keyword may be, as its messages say.
+std::string expected_of(const Option& option, Functions function) {
+  const OwnRow* own = own_row(option.name);
+  if (own != nullptr && *own->expected != '\0') return own->expected;
+  const bool is_max = std::string_view(option.name) == "max";
+  if (is_max && function == kPyGate)
+    return expected_of_kind(option) + ", or a number for each face of A";
+  return or_none(expected_of_kind(option), takes_none(option, function));
+}
+
+void read(const Option& option, Functions function, const Arguments& all, Request& asked) {
+  const std::string name = keyword_name(option);
+  const py::object* given = all.find(name.c_str());
+  if (given == nullptr || (given->is_none() && takes_none(option, function))) return;
+  const std::string expected = expected_of(option, function);
+  const Value value{name.c_str(), expected.c_str(), *given};
+  const OwnRow* own = own_row(option.name);
+  if (own != nullptr) {
+    own->read(value, function, asked);
+  } else {
+    std::visit(Put{option, all, value, asked}, option.target);
+  }
+  const bool is_off = option.kind == Kind::kFlag && !py::cast<bool>(*given);
+  if (!is_off) asked.given.insert(option.name);
+}
+
+std::string named(std::string_view option) {
+  if (option == "face-max") return "limits of A's faces";
+  const Option* row = option_of(option);
+  return row == nullptr ? std::string(option) : keyword_name(*row);
+}
+
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+template <class Add>
+void for_each_keyword(Functions function, const std::vector<std::string>& own, const Add& add) {
+  for (const Option& option : options()) {
+    const bool is_one = (option.functions & function) != 0;
+    if (is_one && !is_among(own, keyword_name(option))) add(option);
+  }
+}
+
+}  // namespace
+
+Signature signature_of(Functions function, const char* name, std::vector<std::string> own,
+                       size_t required, size_t positional) {
+  Signature signature{name, own, required, positional};
+  for_each_keyword(function, own,
+                   [&](const Option& option) { signature.names.push_back(keyword_name(option)); });
+  return signature;
+}
+
+std::string keywords_text(Functions function, const std::vector<std::string>& own) {
+  std::string text;
+  for_each_keyword(function, own, [&](const Option& option) {
+    text +=
+        (text.empty() ? "" : ", ") + keyword_name(option) + "=" + keyword_default(option, function);
+  });
+  return text;
+}
+
+Request request_of(Functions function, const char* command, const Arguments& given) {
+  const FloatEnvironment ours;
+  Request asked;
+  asked.command = kPython;
+  asked.metrics = function == kPyMetrics;
+  Question& question = asked.question;
+  question.command = command;
+  question.dashes = "";
+  question.tolerance = {.requested = "1e-6", .number = kTolerance};
+  question.survey_time_s = std::numeric_limits<double>::infinity();
+  for_each_keyword(function, {"device"},
+                   [&](const Option& option) { read(option, function, given, asked); });
+  if (question.max && !asked.has("tol"))
+    question.tolerance = {.requested = shortest_decimal(kGateTolerance), .number = kGateTolerance};
+  check_together(asked, named);
+  complete(asked, named);
+  question.options.time_limit_s = asked.time_limit_s;
+  return asked;
+}
+
+}  // namespace vkh::python
