@@ -26,7 +26,7 @@ std::string listed(const std::vector<std::string>& names, const char* between) {
 
 void check_choice(const Option& option, const Given& given, const std::string& text) {
   const std::vector<std::string>& known = option.choices;
-  if (known.empty() || std::find(known.begin(), known.end(), text) != known.end()) return;
+  if (known.empty() || option.has_others || std::find(known.begin(), known.end(), text) != known.end()) return;
   refuse(given, text, "one of " + listed(known, ", "));
 }
 

@@ -81,6 +81,13 @@ const std::vector<std::string>& units() {
   return known;
 }
 
+std::vector<std::string> figure_names() {
+  std::vector<std::string> names;
+  for (const NamedMetric& metric : kNamedMetrics) names.emplace_back(metric.name);
+  for (const NamedShare& share : kNamedShares) names.emplace_back(share.name);
+  return names;
+}
+
 std::vector<Option> options_of_the_question() {
   const char* const plain = ", or a number alone up to 1e-3, ";
   const std::string tolerance = std::string("Width of the interval: {lengths}") + plain +
@@ -259,7 +266,9 @@ std::vector<Option> options_of_the_question() {
                  "Seek these alone, which takes less time: f1,hd95,assd; others are as wide as "
                  "that leaves them [all]"}},
        .few = kMetrics,
-       .functions = kPyMetrics},
+       .functions = kPyMetrics,
+       .choices = figure_names(),
+       .has_others = true},
       {.name = "normals",
        .kind = Kind::kAngle,
        .group = Group::kQuestion,
@@ -671,7 +680,7 @@ std::vector<Option> options_of_cost() {
                 {kBatch,
                  "Devices, between commas, as 'doctor' names them; all: every GPU [the best]"}},
        .few = kDistance | kMetrics | kSimplify | kDemo,
-       .functions = kPySolving,
+       .functions = kPyDistance | kPyGate | kPyMetrics | kPyMany | kPySimplify,
        .shape = "DEVICE",
        .choices = {"gpu", "cpu", "all"},
        .unlike = kHost},

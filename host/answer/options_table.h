@@ -90,6 +90,7 @@ struct Option {
   const char* keyword = "";               ///< Python's name, where it is another one
   const char* shape = "";                 ///< of its value in help; empty: the kind's
   std::vector<std::string> choices = {};  ///< of other kinds than kChoice and kNames: some of many
+  bool has_others = false;     ///< of names: choices are not all, and complete() checks them
   double least = 0, most = 0;             ///< of counts and numbers
   std::vector<std::string> also = {};     ///< what people call it, in lower case without blanks
   const char* unlike = "";  ///< why two values are one question: not part of a pair's key

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Writes the package's types, __init__.pyi: the template's lines, and the classes that Python defines.
+"""Writes the package's types, __init__.pyi: the template's lines, the classes that Python defines, and the keywords of the options table.
 
-usage: make_stub.py TEMPLATE PACKAGE OUT; PACKAGE has the modules. A line "# class NAME of MODULE" of the template
+usage: make_stub.py TEMPLATE PACKAGE KEYWORDS OUT; PACKAGE has the modules. A line "# class NAME of MODULE" of the template
 stands for that class: its bases, the first line of its text, its annotated members, and the signatures of its methods.
+A line "# keywords of FUNCTION" stands for those that KEYWORDS, made by tools/options/make_pages.py, has for it and that
+the function does not name before.
 """
 
 import ast
+import json
 import pathlib
 import re
 import sys
@@ -51,10 +54,37 @@ def class_text(module: pathlib.Path, name: str) -> str:
     return "\n".join([f"class {name}({bases}):" if bases else f"class {name}:", *first, *members])
 
 
+# Of keywords, by their kind; "| None" is added where None is the default.
+KINDS = {
+    "flag": "bool", "tolerance": "_Number | str", "length": "_Number | str", "lengths": "_Bands", "names": "_Names", "share": "_Number | str",
+    "percentile": "_Number | str", "angle": "_Number", "size": "SupportsIndex | str", "time": "_Number", "count": "SupportsIndex",
+    "file": "_Path", "input": "npt.ArrayLike | _Path", "text": "str | SupportsIndex | Device",
+}
+NAMES = {"field": "bool | _Number | str", "points": "_Points"}
+
+
+def keyword_line(row: dict, function: str) -> str:
+    name, default = row["name"], row["default"].replace("'", '"')
+    literals = [*([default.strip('"')] if row["kind"] == "choice" else []), *row["choices"]]
+    known = ", ".join(f'"{one}"' for one in dict.fromkeys(literals))
+    kind = NAMES.get(name) or KINDS.get(row["kind"]) or f"Literal[{known}]"
+    if name == "device" and function == "distances":
+        kind = "str | SupportsIndex"
+    return f"{name}: {kind}{' | None' if default == 'None' and 'None' not in kind and name not in NAMES else ''} = {default},"
+
+
+def with_keywords(text: str, keywords: dict) -> str:
+    def lines(at):
+        named = re.findall(r"(\w+): ", text[text.rindex("def ", 0, at.start()):at.start()])
+        return "\n".join(at[1] + keyword_line(row, at[2]) for row in keywords[at[2]] if row["name"] not in named)
+
+    return re.sub(r"^( +)# keywords of ([\w.]+)$", lines, text, flags=re.M)
+
+
 def main() -> None:
-    template, package, out = map(pathlib.Path, sys.argv[1:])
+    template, package, keywords, out = map(pathlib.Path, sys.argv[1:])
     text = re.sub(r"^# class (\w+) of (\w+)$", lambda at: class_text(package / f"{at[2]}.py", at[1]), template.read_text(encoding="utf-8"), flags=re.M)
-    out.write_text(text, encoding="utf-8")
+    out.write_text(with_keywords(text, json.loads(keywords.read_text(encoding="utf-8"))), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,44 +1,38 @@
-# Completion of vkhausdorff for bash.
+# Completion of vkhausdorff for bash. Made by tools/options/make_pages.py.
 _vkhausdorff() {
-  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]-}
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]-} options=
   local commands="distance gate metrics batch merge simplify demo doctor help"
-  local engine="--memory --waves --preset --enable --disable --no-cache --help --help-all" search tables="--out --csv --junit"
-  search="--device --time $engine"
-  local look="--view --up --size --map --range --steps"
-  local outputs="--json --verbose --verify --tol --symmetric --stats --signed --bands --max-distance --field-tol --effort --field --image --report --title --figures-csv --points-out $look"
-  local files="--unit --unit-a --unit-b --transform --scale --align --max-input --polygons --bodies --points"
-  local options="--help --help-all --version"
   COMPREPLY=()
   if [ "$COMP_CWORD" = 1 ]; then
-    mapfile -t COMPREPLY < <(compgen -W "$commands $options" -- "$current")
+    mapfile -t COMPREPLY < <(compgen -W "$commands --help --help-all --version" -- "$current")
     return
   fi
   case $previous in
-    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu all" -- "$current"); return ;;
-    --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
-    --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
-    --figures) mapfile -t COMPREPLY < <(compgen -W "hausdorff hd_p hd_p_pooled masd assd rms chamfer_l1 chamfer_l2 nsd precision recall f1 normal_consistency precision_normals recall_normals f1_normals" -- "$current"); return ;;
-    --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
-    --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
     --polygons) mapfile -t COMPREPLY < <(compgen -W "fan any" -- "$current"); return ;;
     --bodies) mapfile -t COMPREPLY < <(compgen -W "solid all" -- "$current"); return ;;
     --points) mapfile -t COMPREPLY < <(compgen -W "a b both" -- "$current"); return ;;
-    --unit | --unit-a | --unit-b) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
-    --max | --tol | --time | --memory | --waves | --max-input | --enable | --disable | \
-      --area | --percentile | --bands | --normals | --max-distance | --field-tol | --effort | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | \
-      --part | --known-lower | --levels | --ratio) return ;;
+    --figures) mapfile -t COMPREPLY < <(compgen -W "hausdorff hd_p hd_p_pooled masd assd rms chamfer_l1 chamfer_l2 normal_consistency nsd precision recall f1 precision_normals recall_normals f1_normals" -- "$current"); return ;;
+    --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
+    --unit-a) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
+    --unit-b) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
+    --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
+    --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
+    --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
+    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu all" -- "$current"); return ;;
+    --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
+    --enable) mapfile -t COMPREPLY < <(compgen -W "centroid parent_samples tolerance_cull thin u3 u4 warm_start group_walk shared_faces sort packet defer largest_first u3_paper split_twice wide multiwave" -- "$current"); return ;;
+    --disable) mapfile -t COMPREPLY < <(compgen -W "centroid parent_samples tolerance_cull thin u3 u4 warm_start group_walk shared_faces sort packet defer largest_first u3_paper split_twice wide multiwave" -- "$current"); return ;;
+    --max | --area | --tol | --part | --known-lower | --percentile | --bands | --normals | --max-distance | --field-tol | --effort | --levels | --ratio | --title | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | --max-input | --time | --memory | --waves) return ;;
   esac
   case $command in
-    distance) options="$search $outputs $files --save-transform --certificate --part --known-lower" ;;
-    gate) options="$search $outputs $files --save-transform --certificate --max --worst --area --face-max --face-max-b --junit --github" ;;
-    metrics) options="$search $files --save-transform --percentile --bands --figures --normals --tol --effort --json --verbose --verify" ;;
-    batch)
-      options="$search $tables --against --allow-unpaired --github --resume --shard --fail-fast --max --tol --symmetric --signed --metrics --percentile --bands --figures --normals $files"
-      options+=" --image-dir --report-dir --effort --max-distance $look --together --lanes --read-ahead" ;;
-    simplify) options="$search --json --max --out --one-way --lock-borders --levels --ratio --certificate --unit --max-input --polygons --bodies" ;;
-    merge) options="$tables --list --reproducible --help --help-all" ;;
-    demo) options="$search $outputs" ;;
-    doctor) options="--device --json --help --help-all" ;;
+    distance) options="--tol --symmetric --polygons --bodies --points --part --known-lower --stats --signed --bands --max-distance --field-tol --effort --unit --unit-a --unit-b --transform --scale --align --save-transform --field --image --report --title --figures-csv --points-out --certificate --json --verbose --verify --view --up --size --map --range --steps --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    gate) options="--max --face-max --face-max-b --area --worst --tol --symmetric --polygons --bodies --points --stats --signed --bands --max-distance --field-tol --effort --unit --unit-a --unit-b --transform --scale --align --save-transform --field --image --report --title --figures-csv --points-out --certificate --junit --github --json --verbose --verify --view --up --size --map --range --steps --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    metrics) options="--tol --polygons --bodies --points --percentile --bands --figures --normals --effort --unit --unit-a --unit-b --transform --scale --align --save-transform --json --verbose --verify --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    batch) options="--max --tol --symmetric --polygons --bodies --points --signed --metrics --percentile --bands --figures --normals --max-distance --effort --against --allow-unpaired --unit --unit-a --unit-b --transform --scale --align --out --csv --junit --github --image-dir --report-dir --view --up --size --map --range --steps --resume --shard --fail-fast --together --lanes --read-ahead --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    merge) options="--out --csv --junit --list --reproducible --help --help-all" ;;
+    simplify) options="--max --polygons --bodies --one-way --lock-borders --levels --ratio --unit --out --certificate --json --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    demo) options="--tol --symmetric --stats --signed --bands --max-distance --field-tol --effort --field --image --report --title --figures-csv --points-out --json --verbose --verify --view --up --size --map --range --steps --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    doctor) options="--json --device --help --help-all" ;;
     help) options="$commands" ;;
   esac
   if [[ $current == -* || $command == help ]]; then

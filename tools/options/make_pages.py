@@ -165,7 +165,8 @@ def keywords(table):
     functions = {}
     for option in table["options"]:
         for function, default in option["functions"].items():
-            row = {"name": option["keyword"], "kind": option["kind"], "default": default}
+            row = {"name": option["keyword"], "kind": option["kind"], "default": default,
+                   "choices": option["choices"] if option["kind"] in ("choice", "unit") else []}
             functions.setdefault(function, []).append(row)
     lines = [f' "{name}": [\n  ' + ",\n  ".join(json.dumps(row) for row in rows) + "\n ]" for name, rows in functions.items()]
     return "{\n" + ",\n".join(lines) + "\n}\n"
