@@ -255,14 +255,6 @@ std::string transform_text(const Request& asked) {
   return text;
 }
 
-void put_out(const Given& given, Request& asked) {
-  asked.many.results = asked.simplify.out = given.text();
-}
-
-void put_junit(const Given& given, Request& asked) {
-  asked.many.junit = asked.outputs.junit = given.text();
-}
-
 void put_json(const Given& given, Request& asked) {
   asked.outputs.json = given.texts.empty();
   if (!given.texts.empty()) asked.outputs.json_file = given.text();

@@ -23,8 +23,6 @@ void put_polygons(const Given& given, Request& asked);
 void put_bodies(const Given& given, Request& asked);
 void put_points(const Given& given, Request& asked);
 void put_transform(const Given& given, Request& asked);
-void put_out(const Given& given, Request& asked);
-void put_junit(const Given& given, Request& asked);
 void put_json(const Given& given, Request& asked);  ///< no text: on standard output
 void put_range(const Given& given, Request& asked);
 void put_no_cache(const Given& given, Request& asked);

@@ -31,7 +31,8 @@ struct Look {
 /// The places of an answer besides the table.
 struct Outputs {
   bool json = false;  ///< one object on standard output instead of the table
-  std::optional<std::string> json_file, junit, transform;
+  std::string out;    ///< the results of many pairs, or the mesh of fewer faces
+  std::optional<std::string> json_file, junit, csv, transform;
   bool github = false;  ///< annotations and a summary for GitHub Actions
   std::optional<std::string> field, image, report, certificate, figures, points;
   std::string title;  ///< the report's heading; empty: the names of the files
@@ -46,9 +47,8 @@ struct ManyRequest {
   std::vector<std::string> files;  ///< as they were named: a list, folders, meshes or results
   std::string against;             ///< one B for each of `files`; empty: they name pairs
   bool allows_unpaired = false;    ///< a file without a partner there is no failure
-  std::string results;
   std::string list;  ///< merge: the list whose ids must be there; empty: no check
-  std::optional<std::string> csv, junit, image_folder, report_folder;
+  std::optional<std::string> image_folder, report_folder;
   PartOf shard;
   bool resumes = false, fails_fast = false;
   bool reproducible = false;  ///< leaves out what differs between two runs
@@ -58,7 +58,6 @@ struct ManyRequest {
 
 /// What `simplify` has besides the question about its mesh.
 struct SimplifyRequest {
-  std::string out;
   bool one_way = false, lock_borders = false;
   uint64_t levels = 0;  ///< 0: one mesh, as few faces as are found
   double ratio = 0.5;

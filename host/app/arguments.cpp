@@ -21,8 +21,8 @@ void check_ending(const char* option, const std::optional<std::string>& path, co
 }
 
 void check_simplify(const Request& asked) {
-  if (!mesh_format_of(asked.simplify.out))
-    throw UsageError("--out '" + asked.simplify.out +
+  if (!mesh_format_of(asked.outputs.out))
+    throw UsageError("--out '" + asked.outputs.out +
                      "': expected a name that ends in .ply, .obj, .stl or .glb");
   check_ending("--certificate", asked.outputs.certificate, ".vhc");
 }

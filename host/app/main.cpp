@@ -167,7 +167,7 @@ int run(const Words& words, Clock::time_point start) {
   }
   const Request& asked = line.asked;
   if (asked.command == kDoctor) return run_doctor(asked);
-  if (asked.command == kMerge) return printed(run_merge_command(asked.many));
+  if (asked.command == kMerge) return printed(run_merge_command(asked));
   note_interrupts();
   const Stop stop(start, asked.time_limit_s);
   if (asked.command == kBatch) return printed(run_batch_command(asked));

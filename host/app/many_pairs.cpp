@@ -41,7 +41,7 @@ std::string worst_first(std::vector<std::pair<Rank, std::string>> rows) {
 /// The CSV and JUnit XML of results, checked before the work.
 class Tables {
  public:
-  Tables(const ManyRequest& asked, const std::vector<std::string>& inputs) {
+  Tables(const Outputs& asked, const std::vector<std::string>& inputs) {
     if (asked.csv) csv_.emplace("--csv", *asked.csv, inputs);
     if (asked.junit) junit_.emplace("--junit", *asked.junit, inputs);
   }
@@ -78,10 +78,10 @@ PairList list_of(const Request& asked) {
 }
 
 /// Refuses a file that is named twice: it would be read while it is written.
-void check_outputs(const ManyRequest& asked) {
-  if (asked.results == "-")
+void check_outputs(const Outputs& asked) {
+  if (asked.out == "-")
     throw UsageError("--out '-': expected the name of a file; one that is called so is ./-");
-  std::set<std::filesystem::path> places{place_of(asked.results)};
+  std::set<std::filesystem::path> places{place_of(asked.out)};
   for (const auto& other : {asked.csv, asked.junit}) {
     if (other && !places.insert(place_of(*other)).second)
       throw UsageError("two outputs would be written to '" + *other + "'");
@@ -125,7 +125,7 @@ BatchJob batch_of(const Request& request, PairList& list) {
     if (is_in(asked.shard, entry.id)) batch.entries.push_back(std::move(entry));
   }
   take_unpaired(asked, list, batch);
-  batch.results = asked.results;
+  batch.results = request.outputs.out;
   batch.resumes = asked.resumes;
   batch.fails_fast = asked.fails_fast;
   batch.devices = asked.devices;
@@ -140,9 +140,10 @@ BatchJob batch_of(const Request& request, PairList& list) {
 std::shared_ptr<BatchFolders> folders_of(const Request& asked, const std::vector<Entry>& entries,
                                          std::vector<std::string> taken) {
   const ManyRequest& many = asked.many;
+  const Outputs& outputs = asked.outputs;
   if (!many.image_folder && !many.report_folder) return nullptr;
-  taken.push_back(many.results);
-  for (const auto& table : {many.csv, many.junit}) {
+  taken.push_back(outputs.out);
+  for (const auto& table : {outputs.csv, outputs.junit}) {
     if (table) taken.push_back(*table);
   }
   return std::make_shared<BatchFolders>(asked, entries, taken);
@@ -181,27 +182,27 @@ ExitCode tell_github(const BatchJob& batch) {
 }
 
 ExitCode run_asked_batch(const Request& request) {
-  const ManyRequest& asked = request.many;
-  check_outputs(asked);
+  const Outputs& outputs = request.outputs;
+  check_outputs(outputs);
   // Lines would be added to the list, and a last one without an end would be cut off.
-  const std::string& first = asked.files.front();
+  const std::string& first = request.many.files.front();
   std::error_code none;
-  if (std::filesystem::equivalent(path_of(first), path_of(asked.results), none))
-    throw UsageError("--out '" + asked.results + "': would overwrite the input '" + first + "'");
+  if (std::filesystem::equivalent(path_of(first), path_of(outputs.out), none))
+    throw UsageError("--out '" + outputs.out + "': would overwrite the input '" + first + "'");
   PairList list = list_of(request);
   for (const std::string& text : list.notes) note(text);
   BatchJob batch = batch_of(request, list);
-  const std::vector<std::string> inputs = inputs_of(asked, batch.entries);
-  const Tables tables(asked, inputs);
+  const std::vector<std::string> inputs = inputs_of(request.many, batch.entries);
+  const Tables tables(outputs, inputs);
   batch.folders = folders_of(request, batch.entries, inputs);
   ExitCode code = run_batch(batch, std::cout);
   if (tables.is_any()) {
     Results results;
-    results.add(asked.results);
+    results.add(outputs.out);
     tables.write(results, true);
   }
   if (batch.folders) code = worse(code, write_indexes(batch));
-  return request.outputs.github ? worse(code, tell_github(batch)) : code;
+  return outputs.github ? worse(code, tell_github(batch)) : code;
 }
 
 }  // namespace
@@ -220,12 +221,14 @@ namespace {
 
 /// Merges the parts of one pair, measured apart. The answer is one line, like that of `distance
 /// --json`.
-ExitCode merge_all_parts(const ManyRequest& asked, const std::vector<WrittenAnswer>& parts) {
-  if (!asked.list.empty() || asked.reproducible || asked.csv || asked.junit)
+ExitCode merge_all_parts(const Request& request, const std::vector<WrittenAnswer>& parts) {
+  const ManyRequest& asked = request.many;
+  const Outputs& outputs = request.outputs;
+  if (!asked.list.empty() || asked.reproducible || outputs.csv || outputs.junit)
     throw UsageError(
         "merge: the parts of one pair make one answer: no --list, --reproducible, "
         "--csv or --junit");
-  const OutputFile out("--out", asked.results, asked.files);
+  const OutputFile out("--out", outputs.out, asked.files);
   const Answer whole = merge_parts(parts);
   out.write(to_json(whole) + '\n');
   std::cout << in_words(whole) << "\n  parts      " << parts.size() << ": "
@@ -235,14 +238,16 @@ ExitCode merge_all_parts(const ManyRequest& asked, const std::vector<WrittenAnsw
 
 }  // namespace
 
-ExitCode run_merge_command(const ManyRequest& asked) {
-  check_outputs(asked);
+ExitCode run_merge_command(const Request& request) {
+  const ManyRequest& asked = request.many;
+  const Outputs& outputs = request.outputs;
+  check_outputs(outputs);
   if (const auto parts = read_parts(asked.files); !parts.empty())
-    return merge_all_parts(asked, parts);
+    return merge_all_parts(request, parts);
   std::vector<std::string> inputs = asked.files;
   if (!asked.list.empty()) inputs.push_back(asked.list);
-  const OutputFile out("--out", asked.results, inputs);
-  const Tables tables(asked, inputs);
+  const OutputFile out("--out", outputs.out, inputs);
+  const Tables tables(outputs, inputs);
   Results results;
   for (const std::string& file : asked.files) results.add(file);
   std::string text;
@@ -262,7 +267,7 @@ ExitCode run_merge_command(const ManyRequest& asked) {
   out.write(text);
   if (tables.is_any()) tables.write(results, !asked.reproducible);
   for (const std::string& id : missing) note("no result: " + id);
-  totals.print_merged(std::cout, missing.size(), asked.results);
+  totals.print_merged(std::cout, missing.size(), outputs.out);
   return missing.empty() ? totals.worst() : worse(totals.worst(), kExitNotClosed);
 }
 

@@ -8,6 +8,6 @@ namespace vkh {
 
 /// Throw what run_batch() and Results throw. Notes go to stderr.
 ExitCode run_batch_command(const Request& asked);
-ExitCode run_merge_command(const ManyRequest& asked);
+ExitCode run_merge_command(const Request& request);
 
 }  // namespace vkh

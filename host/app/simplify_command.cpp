@@ -35,26 +35,25 @@ struct Written {
 };
 
 /// The name of a chain's level, from 1: B-1.ply.
-std::string path_of_level(const SimplifyRequest& asked, size_t level) {
-  const size_t stem = asked.out.size() - 4;
-  return asked.out.substr(0, stem) + "-" + std::to_string(level) + asked.out.substr(stem);
+std::string path_of_level(const std::string& out, size_t level) {
+  const size_t stem = out.size() - 4;
+  return out.substr(0, stem) + "-" + std::to_string(level) + out.substr(stem);
 }
 
-std::vector<std::string> paths_of(const SimplifyRequest& asked) {
-  if (asked.levels == 0) return {asked.out};
+std::vector<std::string> paths_of(const std::string& out, size_t levels) {
+  if (levels == 0) return {out};
   std::vector<std::string> paths;
-  for (size_t level = 1; level <= asked.levels; ++level)
-    paths.push_back(path_of_level(asked, level));
+  for (size_t level = 1; level <= levels; ++level) paths.push_back(path_of_level(out, level));
   return paths;
 }
 
 /// Refuses to write a chain beside further levels of another one, which would be taken for its own.
-void check_further_levels(const SimplifyRequest& asked) {
-  if (asked.levels == 0) return;
-  const std::string further = path_of_level(asked, asked.levels + 1);
+void check_further_levels(const std::string& out, size_t levels) {
+  if (levels == 0) return;
+  const std::string further = path_of_level(out, levels + 1);
   std::error_code none;
   if (std::filesystem::exists(path_of(further), none))
-    throw UsageError("--levels " + std::to_string(asked.levels) + ": '" + further +
+    throw UsageError("--levels " + std::to_string(levels) + ": '" + further +
                      "' is a further level of another chain: remove it, or choose another --out");
 }
 
@@ -100,8 +99,8 @@ SimplifyPlaces SimplifyCommand::places() const {
       throw UsageError("two outputs would be written to '" + path + "'");
     return std::make_unique<OutputFile>(option, path, inputs);
   };
-  check_further_levels(asked_);
-  places.paths = paths_of(asked_);
+  check_further_levels(outputs_.out, asked_.levels);
+  places.paths = paths_of(outputs_.out, asked_.levels);
   for (const std::string& path : places.paths) {
     places.meshes.push_back(open("--out", path));
     if (!places.meshes.back()->is_replaced())
@@ -141,10 +140,10 @@ void SimplifyCommand::take_limit() {
   if (!question_.unit.empty() && !a_.unit.empty() && question_.unit != a_.unit)
     throw UsageError("--unit " + question_.unit + ": " + a_.name + " is in " + a_.unit);
   answer_.unit = a_.unit.empty() ? question_.unit : a_.unit;
-  if (mesh_format_of(asked_.out) == MeshFormat::kGlb && !answer_.unit.empty() &&
+  if (mesh_format_of(outputs_.out) == MeshFormat::kGlb && !answer_.unit.empty() &&
       answer_.unit != "m")
-    throw UsageError("--out '" + asked_.out + "': glTF is in metres, and A is in " + answer_.unit +
-                     ": write .ply, .obj or .stl");
+    throw UsageError("--out '" + outputs_.out + "': glTF is in metres, and A is in " +
+                     answer_.unit + ": write .ply, .obj or .stl");
   answer_.max = *question_.max;
   answer_.limit = limit_in_files(answer_.max, "--max", answer_.unit, diagonal_of(a_));
 }
@@ -154,7 +153,7 @@ SimplifyOptions SimplifyCommand::options() {
   options.max = answer_.limit;
   options.one_way = answer_.one_way = !question_.symmetric;
   options.lock_borders = answer_.lock_borders = asked_.lock_borders;
-  options.rounds_to_float = !holds_doubles(*mesh_format_of(asked_.out));
+  options.rounds_to_float = !holds_doubles(*mesh_format_of(outputs_.out));
   options.time_limit_s = stop_.left_s();
   options.solve = question_.options;
   options.goes_on = [] { return !is_interrupted(); };

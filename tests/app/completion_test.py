@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The man page and the shells' completions know the options that --help-all has, and no others.
 
-usage: completion_test.py PROGRAM SOURCE
+usage: completion_test.py PROGRAM SOURCE PRINT_OPTIONS
 """
 
 import pathlib
@@ -11,7 +11,7 @@ import subprocess
 import sys
 import unittest
 
-PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+PROGRAM, SOURCE, PRINT_OPTIONS = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
 COMMANDS = ("distance", "gate", "metrics", "batch", "merge", "simplify", "demo", "doctor")
 OPTION = r"--[a-z]+(?:-[a-z]+)*"
 
@@ -31,6 +31,11 @@ def completed(command):
 
 
 class Options(unittest.TestCase):
+    def test_what_is_made_from_the_table_is_up_to_date(self):
+        done = subprocess.run([sys.executable, "-B", SOURCE / "tools/options/make_pages.py", PRINT_OPTIONS, "--check"],
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
     def test_help_is_short_and_says_where_the_rest_is(self):
         for command in COMMANDS:
             with self.subTest(command):
