@@ -15,7 +15,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 Question of_meshes(Question question) {
-  question.dashes = "";
   if (question.metrics) question.symmetric = true;
   if (question.command.empty())
     question.command = question.metrics ? "metrics" : question.max ? "gate" : "distance";

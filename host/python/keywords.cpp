@@ -422,7 +422,6 @@ Request request_of(Functions function, const char* command, const Arguments& giv
   asked.metrics = function == kPyMetrics;
   Question& question = asked.question;
   question.command = command;
-  question.dashes = "";
   question.tolerance = {.requested = "1e-6", .number = kTolerance};
   question.survey_time_s = std::numeric_limits<double>::infinity();
   for_each_keyword(function, {"device"},

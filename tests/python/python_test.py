@@ -390,7 +390,7 @@ class Refusals(unittest.TestCase):
         four = (SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES)
         self.wrong(TypeError, "needs va, fa, vb, fb; 'vb' is missing", lambda: vkh.distance(*four[:2]))
         self.wrong(TypeError, "needs vb, fb; 'vb' is missing", lambda: vkh.Solver())
-        self.wrong(TypeError, "has no argument 'tolerance'; it takes va,", lambda: vkh.distance(*four, tolerance=1))
+        self.wrong(TypeError, "has no argument 'tolerance'; did you mean tol. it takes va,", lambda: vkh.distance(*four, tolerance=1))
         self.wrong(TypeError, "'va' was given twice", lambda: vkh.distance(*four, va=SQUARE))
         self.wrong(TypeError, "by position and the rest by name; 7 were", lambda: vkh.distance(*four, 1e-6, False, "cpu"))
         solver = vkh.Solver(*four[:2])
@@ -401,7 +401,7 @@ class Refusals(unittest.TestCase):
     def test_names(self):
         self.refused("'u9'", disable=["u9"])
         self.refused("'u9'", enable=["u9"])
-        self.refused("no preset is called 'pape'", preset="pape")
+        self.refused("preset: expected 'default', 'paper' or 'baseline-gpu', not 'pape'", preset="pape")
         with self.assertRaisesRegex(vkh.DeviceError, "no usable Vulkan device matches 'nonesuch'"):
             vkh.distance(SQUARE, SQUARE_FACES, SQUARE, SQUARE_FACES, device="nonesuch")
         self.assertTrue(issubclass(vkh.DeviceError, RuntimeError))

@@ -28,8 +28,7 @@ struct SidedMax {
 
 struct Question {
   std::string command;             ///< Answer::command
-  std::vector<std::string> words;  ///< Answer::words
-  const char* dashes = "--";       ///< before an option's name in a message; Python has none
+  std::vector<std::string> words;  ///< Answer::words; empty: no command line asked it
 
   // The meshes.
   std::string file_a, file_b;  ///< both empty: the built-in pair
@@ -95,7 +94,10 @@ struct Question {
     return faces || statistics || metrics || !bands.empty() || area || map_pixels > 0 ||
            asks_for_sides();
   }
-  std::string option(const char* name) const { return std::string(dashes) + name; }
+  /// An option's name in messages: with dashes where the question was typed on a command line.
+  std::string option(const char* name) const {
+    return std::string(words.empty() ? "" : "--") + name;
+  }
   bool asks_for_cells() const { return certificate || asks_for_survey(); }
 };
 
