@@ -52,8 +52,7 @@ bool takes_none(const Option& option, Functions function) {
     case Kind::kChoice:
       return option.is_column;  // points
     case Kind::kLength:
-      return (function & (kPyGate | kPySimplify)) == 0 || *option.name != 'm' ||
-             std::string_view(option.name) != "max";
+      return (function & (kPyGate | kPySimplify)) == 0 || std::string_view(option.name) != "max";
     default:
       return true;
   }

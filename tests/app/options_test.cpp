@@ -75,7 +75,8 @@ TEST_CASE("each value of a batch's option has a key of its own, or the row says 
   const std::string none = key_text(typed(std::vector<std::string>()));
   size_t apart = 0;
   for (const Option& option : options()) {
-    if (use_of(option, kBatch) == nullptr) continue;
+    const Use* use = use_of(option, kBatch);
+    if (use == nullptr || use->required) continue;
     CAPTURE(option.name);
     std::set<std::string> keys{none};
     const std::vector<std::string> samples = samples_of(option);
@@ -123,7 +124,7 @@ TEST_CASE("a wrong value names the option as its outlet does") {
                            option.kind == Kind::kFile || option.kind == Kind::kInput ||
                            option.kind == Kind::kFolder || option.has_others;
     if (takes_any) continue;
-    for (const std::string said : {"--" + std::string(option.name), column_name(option)}) {
+    for (const std::string& said : {with_dashes(option.name), column_name(option)}) {
       CAPTURE(said);
       const std::string wrong = "no value";
       Request asked;
