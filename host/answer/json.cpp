@@ -71,9 +71,7 @@ Answer answer_from(const Json& json) {
   return answer;
 }
 
-Answer answer_from_json(std::string_view text) {
-  return answer_from(Json::parse(text, nullptr, false));
-}
+Answer answer_from_json(std::string_view text) { return answer_from(parse_json(text)); }
 
 Failure failure_of(const Error& error) {
   const bool is_of_input = error.parts().option.empty();
@@ -95,7 +93,7 @@ std::string failure_json(const Failure& failure, const char* schema) {
 }
 
 Failure failure_from_json(std::string_view text) {
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = parse_json(text);
   check_schema(json);
   return failure_in(json);
 }

@@ -1,14 +1,12 @@
 // Answers as JSON that is parsed, for programs of this project that look into it.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
+#include "host/base/parse_json.h"
 #include "vkhausdorff/answer.h"
 
 namespace vkh {
-
-using Json = nlohmann::ordered_json;
 
 inline constexpr const char* kAnswerSchema = "vkhausdorff.answer/2";
 

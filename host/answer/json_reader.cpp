@@ -72,7 +72,7 @@ bool is_before(const std::string& version, const char* other) {
 
 /// Bytes that are no UTF-8 are replaced where a text is written.
 std::string as_in_json(const std::string& text) {
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+  return parse_json(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
       .get<std::string>();
 }
 

@@ -88,7 +88,7 @@ std::string without_run(const std::string& line) {
 
 Result read_result(std::string_view line) {
   const FloatEnvironment ours;
-  const Json json = Json::parse(line, nullptr, false);
+  const Json json = parse_json(line);
   check_line(json);
   JsonReader reader(json, Detail::kBrief, Missing::kNoted);
   Result result;

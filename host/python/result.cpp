@@ -189,7 +189,8 @@ void define_surveys(py::class_<Result>& result) {
       .def_property_readonly("figures", of_survey("figures"),
                              "with statistics or signed: {name: Interval} of all figures of A, "
                              "such as 'mean', 'p95',\n"
-                             "'within_0.5', 'over' and 'signed_mean'; else None")
+                             "'within_0.5', 'over' and 'signed_mean'; else None, and in the pickle "
+                             "of a version without them")
       .def_property_readonly(
           "percentiles", of_survey("percentiles"),
           "with statistics: {share: Interval} of the least distance that so much of A's area is\n"

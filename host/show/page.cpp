@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/base/decimal.h"
+#include "host/base/parse_json.h"
 #include "host/show/escape.h"
 #include "host/show/mapped_picture.h"
 #include "host/show/page_assets.h"
@@ -18,8 +19,6 @@
 
 namespace vkh {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr size_t kLeastFaces = 100;       // fewer show nothing: such a page has no view
 constexpr size_t kMostFaces = 5'000'000;  // corners are numbered in three bytes
@@ -41,7 +40,7 @@ class PageWriter {
         answer_(*contents.answer),
         limits_(limits),
         answer_json_(to_json(answer_)),
-        text_{answer_, Json::parse(answer_json_)} {
+        text_{answer_, parse_json(answer_json_)} {
     sides_.push_back(std::make_unique<PageSide>(contents.a_to_b, contents.look));
     if (contents.b_to_a)
       sides_.push_back(std::make_unique<PageSide>(*contents.b_to_a, contents.look));

@@ -8,8 +8,6 @@
 namespace vkh {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 std::string count_text(const Json& number) {
   if (!number.is_number()) return "not known";
   return grouped(number.get<uint64_t>());

@@ -11,7 +11,6 @@
 namespace vkh {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using drawing::MapScale;
 
 // Signs are drawn, for fonts differ in their characters.

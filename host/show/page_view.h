@@ -2,10 +2,10 @@
 // does.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "host/base/parse_json.h"
 #include "host/show/map_legend.h"
 #include "host/show/page.h"
 
@@ -15,14 +15,14 @@ namespace vkh {
 /// taken from it, so that they are in UTF-8.
 struct PageText {
   const Answer& answer;
-  nlohmann::ordered_json json;
+  Json json;
 };
 
 /// The name of a file without its folder.
 std::string file_name_in(const PageText& page, bool is_b);
 
 /// Title, files, verdict, warnings and the facts beside them: what stands above all else.
-nlohmann::ordered_json head_view(const PageText& page, const std::string& title);
+Json head_view(const PageText& page, const std::string& title);
 
 /// The part of a page about one direction.
 struct SideText {
@@ -33,12 +33,12 @@ struct SideText {
 };
 
 /// One direction: its colours, its worst places and its figures.
-nlohmann::ordered_json side_view(const PageText& page, const SideText& side);
+Json side_view(const PageText& page, const SideText& side);
 
 /// The colours of a bar, for the viewer.
-nlohmann::ordered_json scale_json(const drawing::MapScale& scale);
+Json scale_json(const drawing::MapScale& scale);
 
 /// Describes the inputs, the device and the run: rows of two tables, and notes.
-nlohmann::ordered_json record_view(const PageText& page);
+Json record_view(const PageText& page);
 
 }  // namespace vkh

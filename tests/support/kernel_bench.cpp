@@ -58,7 +58,10 @@ VkhContext context_for(uint32_t switches, bool wide) {
 }  // namespace
 
 Device& test_device() {
-  if (made() == nullptr) made() = &kept<TestDevice>();
+  if (made() == nullptr) {
+    made() = &kept<TestDevice>();
+    validation_messages() = [] { return made()->device.validation_messages(); };
+  }
   return made()->device;
 }
 
@@ -87,10 +90,6 @@ AdoptedDevice handles_of(const Device& device) {
           .queue = device.queue(),
           .queue_family = device.queue_family(),
           .queue_mutex = nullptr};
-}
-
-uint32_t validation_messages() {
-  return made() != nullptr ? made()->device.validation_messages() : 0;
 }
 
 KernelBench::KernelBench(uint32_t switches, bool wide)

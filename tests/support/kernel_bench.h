@@ -4,38 +4,15 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include "engine/record.h"
 #include "engine/vkhausdorff_experimental.h"
 #include "host/gpu/memory.h"
+#include "tests/support/kept.h"
 #include "vkhausdorff/mesh.h"
 
 namespace vkh::test {
-
-// An object that a test program makes once and uses to its end: a device, a solver.
-inline std::vector<std::shared_ptr<void>>& all_kept() {
-  static std::vector<std::shared_ptr<void>> all;
-  return all;
-}
-
-/// The object is made now, and destroyed by release_kept. A static object would be destroyed among
-/// the exit handlers of drivers and layers, some of which have then taken themselves apart: they
-/// crash.
-template <class T, class... Args>
-T& kept(Args&&... args) {
-  auto made = std::make_shared<T>(std::forward<Args>(args)...);
-  T& one = *made;
-  all_kept().push_back(std::move(made));
-  return one;
-}
-
-/// Destroys them in the opposite order. main.cpp calls it.
-inline void release_kept() {
-  while (!all_kept().empty()) all_kept().pop_back();
-}
 
 /// The device of this test program, made once, with the validation layer if VKH_VALIDATION is set
 /// and not empty. VKH_TEST_DEVICE selects another than the best one. Contexts are byAddress if
@@ -48,10 +25,6 @@ VkhContextCreateInfo create_info(uint32_t switches, VkhDeviceKind kind,
 
 /// A foreign device, to be adopted.
 AdoptedDevice handles_of(const Device& device);
-
-/// The number of the layer's messages so far; 0 if no device was made. Any message fails the
-/// program (main.cpp).
-uint32_t validation_messages();
 
 class KernelBench {
  public:

@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "tests/support/bus_error.h"
-#include "tests/support/kernel_bench.h"
+#include "tests/support/kept.h"
 
 namespace {
 
@@ -43,7 +43,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "no test case is named so\n");
     return 1;
   }
-  const uint32_t messages = vkh::test::validation_messages();
+  const uint32_t messages = vkh::test::validation_messages()();
   if (messages > 0) std::fprintf(stderr, "%u messages of the validation layer\n", messages);
   vkh::test::release_kept();
   return result != 0 ? result : (messages > 0 ? 1 : 0);

@@ -141,6 +141,15 @@ class SidedPoint(NamedTuple):
     lower: float
 
 
+def _plain(value):
+    """A member as plain values: an Interval as its two ends, a point by its members' names."""
+    if isinstance(value, dict):
+        return {name: _plain(one) for name, one in value.items()}
+    if isinstance(value, SidedPoint):
+        return _plain(value._asdict())
+    return list(value) if isinstance(value, tuple) else value
+
+
 def _largest(values):
     return float(values.max()) if len(values) else 0.0
 
@@ -183,15 +192,8 @@ class Signed:
 
     def to_dict(self) -> dict[str, Any]:
         """All of it as plain values, which json.dumps takes."""
-        plain = {"over": list(self.over), "under": list(self.under), "inside": self.inside, "open_edges": self.open_edges,
-                 "inside_out": self.inside_out, "areas": None, "mean": list(self.mean) if self.mean is not None else None,
-                 "percentiles": [{"share": share, "distance": list(d)} for share, d in self.percentiles.items()]}
-        if self.areas is not None:
-            plain["areas"] = {"over": list(self.areas["over"]), "under": list(self.areas["under"]),
-                              "unsigned": {why: list(share) for why, share in self.areas["unsigned"].items()}}
-        for name in ("over_witness", "under_witness"):
-            at = getattr(self, name)
-            plain[name] = None if at is None else {"point": list(at.point), "face": at.face, "lower": at.lower}
+        plain = {one.name: _plain(getattr(self, one.name)) for one in fields(self) if one.name not in ("over_field", "under_field")}
+        plain["percentiles"] = [{"share": share, "distance": distance} for share, distance in plain["percentiles"].items()]
         return plain
 
 
@@ -207,7 +209,8 @@ class Survey:
     ended it early: the next run may differ), 'cancelled' or 'memory'. stats: its effort and cost. signed: a Signed, or None.
     points: of a mesh of points, how many: area is 0, and all figures and shares weigh points alike; otherwise None.
     kept: with max_distance, the Interval of the share of the mesh that is within it, of which figures are; otherwise None.
-    figures: {name: Interval} of all of these: 'mean', 'rms', 'p95', 'within_0.5', 'kept', 'over', 'signed_mean' and so on.
+    figures: {name: Interval} of all of these: 'mean', 'rms', 'p95', 'within_0.5', 'kept', 'over', 'signed_mean' and so on; None
+    in the pickle of a version that had none, since names are made where an answer is, with the limits as they were typed.
     """
 
     upper: float
