@@ -18,16 +18,12 @@ namespace {
   throw UsageError(given.said + " '" + text + "': expected " + expected);
 }
 
-std::string listed(const std::vector<std::string>& names, const char* between) {
-  std::string text;
-  for (const std::string& name : names) text.append(text.empty() ? "" : between).append(name);
-  return text;
-}
-
 void check_choice(const Option& option, const Given& given, const std::string& text) {
   const std::vector<std::string>& known = option.choices;
-  if (known.empty() || option.has_others || std::find(known.begin(), known.end(), text) != known.end()) return;
-  refuse(given, text, "one of " + listed(known, ", "));
+  if (known.empty() || option.has_others) return;
+  if (std::find(known.begin(), known.end(), text) != known.end()) return;
+  const bool is_of_many = option.kind == Kind::kNames;
+  refuse(given, text, (is_of_many ? "one of " : "") + joined(known, is_of_many ? ", " : " or "));
 }
 
 // Accepts TRUE too, as spreadsheets write it.
@@ -62,9 +58,7 @@ uint64_t whole_of(const Option& option, const Given& given) {
   const auto result = std::from_chars(text.data(), end, number);
   const bool is_one = result.ec == std::errc() && result.ptr == end;
   if (is_one && is_within(option, static_cast<double>(number))) return number;
-  refuse(given, text,
-         "a whole number from " + shortest_decimal(option.least) + " to " +
-             std::to_string(static_cast<uint64_t>(option.most)));
+  refuse(given, text, whole_number(option));
 }
 
 double number_of(const Option& option, const Given& given) {
@@ -148,7 +142,8 @@ std::string key_of(const std::vector<T>& values) {
 }
 
 std::string value_text(const Option& option, Request& asked) {
-  if (const Own* own = std::get_if<Own>(&option.target)) return own->text(asked);
+  if (const Own* own = std::get_if<Own>(&option.target))
+    return own->text == nullptr ? "" : own->text(asked);
   return std::visit(
       [&](const auto& target) -> std::string {
         if constexpr (std::is_same_v<std::decay_t<decltype(target)>, Own>)
@@ -169,6 +164,19 @@ bool is_reversed(const std::array<Length, 2>& range) {
 
 }  // namespace
 
+std::string joined(const std::vector<std::string>& names, const char* last) {
+  std::string text;
+  for (size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? last : ", ") + names[i];
+  return text;
+}
+
+std::string whole_number(const Option& option) {
+  const std::string of = *option.noun == '\0' ? "" : std::string(" of ") + option.noun;
+  return "a whole number" + of + " from " + shortest_decimal(option.least) + " to " +
+         std::to_string(static_cast<uint64_t>(option.most));
+}
+
 void check_truth(const std::string& said, const std::string& text) {
   (void)truth_of({said, std::span(&text, 1)});
 }
@@ -176,7 +184,11 @@ void check_truth(const std::string& said, const std::string& text) {
 void put(const Option& option, const Given& given, Request& asked) {
   if (option.kind == Kind::kChoice) check_choice(option, given, given.text());
   std::visit(Put{option, given, asked}, option.target);
-  asked.given.insert(option.name);
+  if (option.kind == Kind::kFlag && option.shape[0] == '\0' && !truth_of(given)) {
+    asked.given.erase(option.name);
+  } else {
+    asked.given.insert(option.name);
+  }
 }
 
 std::string key_text(const Request& asked) {
@@ -199,7 +211,7 @@ void put_max(const Given& given, Request& asked) {
                                     : parse_length(given.said.c_str(), text, PlainNumber::kRefused);
 }
 
-std::string max_text(const Request& asked) {
+std::string typed_max(const Request& asked) {
   const Question& question = asked.question;
   if (question.max_sides) return sided_text(question.max_sides->over, question.max_sides->under);
   return question.max ? question.max->requested : "";
@@ -274,6 +286,6 @@ void put_range(const Given& given, Request& asked) {
   asked.outputs.look.range = range;
 }
 
-void put_no_cache(const Given& /*given*/, Request& asked) { asked.question.caches = false; }
+void put_no_cache(const Given& given, Request& asked) { asked.question.caches = !truth_of(given); }
 
 }  // namespace vkh

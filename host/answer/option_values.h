@@ -12,6 +12,11 @@ namespace vkh {
 /// take most of the list's time (docs/log/measurements.md).
 constexpr uint64_t kEffortOfMetrics = 1'000'000;
 
+/// "a, b or c", with `last` between the last two.
+std::string joined(const std::vector<std::string>& names, const char* last);
+/// What a count may be, for messages: "a whole number of cells from 0 to 100".
+std::string whole_number(const Option& option);
+
 /// Throws InputError for a text that is neither true nor false.
 void check_truth(const std::string& said, const std::string& text);
 
@@ -27,7 +32,7 @@ void put_json(const Given& given, Request& asked);  ///< no text: on standard ou
 void put_range(const Given& given, Request& asked);
 void put_no_cache(const Given& given, Request& asked);
 
-std::string max_text(const Request& asked);
+std::string typed_max(const Request& asked);
 std::string area_text(const Request& asked);
 std::string polygons_text(const Request& asked);
 std::string bodies_text(const Request& asked);

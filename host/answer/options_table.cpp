@@ -1,6 +1,7 @@
 #include "host/answer/options_table.h"
 
 #include <algorithm>
+#include <array>
 
 #include "host/answer/option_values.h"
 #include "host/answer/quantities.h"
@@ -106,7 +107,7 @@ std::vector<Option> options_of_the_question() {
       {.name = "max",
        .kind = Kind::kLength,
        .group = Group::kQuestion,
-       .target = Own{put_max, max_text},
+       .target = Own{put_max, typed_max},
        .uses = {{kGate,
                  "The limit: {lengths}; or one over B, in front of its faces, and one under it: "
                  "+0.25mm,-0.4mm",
@@ -173,36 +174,6 @@ std::vector<Option> options_of_the_question() {
        .is_column = true,
        .functions = kPyDistance | kPyGate | kPyMany,
        .also = {"bothways"}},
-      {.name = "polygons",
-       .kind = Kind::kChoice,
-       .group = Group::kQuestion,
-       .target = Own{put_polygons, polygons_text},
-       .uses = {{kReading | kSimplify,
-                 "fan: measure the fan of a polygon's corners where its outline crosses itself or "
-                 "encloses no area [such a file is refused]; any: answer for every triangulation "
-                 "of corners that lie in no plane [the one that is made]"}},
-       .functions = kPyFiles,
-       .choices = {"fan", "any"}},
-      {.name = "bodies",
-       .kind = Kind::kChoice,
-       .group = Group::kQuestion,
-       .target = Own{put_bodies, bodies_text},
-       .uses = {{kReading | kSimplify,
-                 "solid: measure what is printed as body (3MF), or shown (glTF); all: everything "
-                 "as it lies, such as modifiers, negative volumes and hidden nodes [solid]"}},
-       .functions = kPyFiles,
-       .choices = {"solid", "all"}},
-      {.name = "points",
-       .kind = Kind::kChoice,
-       .group = Group::kQuestion,
-       .target = Own{put_points, points_text},
-       .uses = {{kReading,
-                 "Which files are points without faces: PLY, OBJ, OFF, XYZ, PTS or LAS; their "
-                 "figures weigh points, not areas [none]"}},
-       .is_column = true,
-       .functions = kPyPair,
-       .choices = {"a", "b", "both"},
-       .also = {"pointcloud"}},
       {.name = "part",
        .kind = Kind::kPart,
        .group = Group::kQuestion,
@@ -295,7 +266,8 @@ std::vector<Option> options_of_the_question() {
                  "Bound the largest distance on each face of A, to so much [1 % of the "
                  "largest]"}},
        .functions = kPyPair,
-       .keyword = "field"},
+       .keyword = "field",
+       .none = "False"},
       {.name = "effort",
        .kind = Kind::kCount,
        .group = Group::kQuestion,
@@ -304,23 +276,8 @@ std::vector<Option> options_of_the_question() {
                 {kBatch, effort + "; with --metrics " + std::to_string(kEffortOfMetrics) + "]"}},
        .few = kMetrics,
        .functions = kPySolving,
+       .noun = "cells",
        .most = 1e12},
-      {.name = "against",
-       .kind = Kind::kInput,
-       .group = Group::kQuestion,
-       .target = to<&ManyRequest::against>,
-       .uses = {{kBatch, "One mesh to go to for all that are named"}},
-       .few = kBatch,
-       .shape = "B",
-       .unlike = "the hash of the file is in the key"},
-      {.name = "allow-unpaired",
-       .kind = Kind::kFlag,
-       .group = Group::kQuestion,
-       .target = to<&ManyRequest::allows_unpaired>,
-       .uses = {{kBatch,
-                 "Name and count the meshes of two folders that have no partner, and let them cost "
-                 "no exit code [each is a pair without an answer, code 4]"}},
-       .unlike = "such a mesh has no pair"},
       {.name = "one-way",
        .kind = Kind::kFlag,
        .group = Group::kQuestion,
@@ -343,6 +300,7 @@ std::vector<Option> options_of_the_question() {
                  "Write a chain instead, each level measured against A itself: B-1.ply, the "
                  "finest, to B-N.ply, as far as the limit allows, 32 at most"}},
        .few = kSimplify,
+       .noun = "levels",
        .least = 1,
        .most = 32},
       {.name = "ratio",
@@ -358,6 +316,38 @@ std::vector<Option> options_of_the_question() {
 
 std::vector<Option> options_of_placement() {
   return {
+      {.name = "polygons",
+       .kind = Kind::kChoice,
+       .group = Group::kPlacement,
+       .target = Own{put_polygons, polygons_text},
+       .uses = {{kReading | kSimplify,
+                 "fan: measure the fan of a polygon's corners where its outline crosses itself or "
+                 "encloses no area [such a file is refused]; any: answer for every triangulation "
+                 "of corners that lie in no plane [the one that is made]"}},
+       .functions = kPyFiles,
+       .choices = {"fan", "any"},
+       .none = "'refuse'"},
+      {.name = "bodies",
+       .kind = Kind::kChoice,
+       .group = Group::kPlacement,
+       .target = Own{put_bodies, bodies_text},
+       .uses = {{kReading | kSimplify,
+                 "solid: measure what is printed as body (3MF), or shown (glTF); all: everything "
+                 "as it lies, such as modifiers, negative volumes and hidden nodes [solid]"}},
+       .functions = kPyFiles,
+       .choices = {"solid", "all"},
+       .none = "'solid'"},
+      {.name = "points",
+       .kind = Kind::kChoice,
+       .group = Group::kPlacement,
+       .target = Own{put_points, points_text},
+       .uses = {{kReading,
+                 "Which files are points without faces: PLY, OBJ, OFF, XYZ, PTS or LAS; their "
+                 "figures weigh points, not areas [none]"}},
+       .is_column = true,
+       .functions = kPyPair,
+       .choices = {"a", "b", "both"},
+       .also = {"pointcloud"}},
       {.name = "unit",
        .kind = Kind::kUnit,
        .group = Group::kPlacement,
@@ -589,74 +579,94 @@ std::vector<Option> options_of_drawing() {
            .group = Group::kDrawing,
            .target = to<&Look::steps>,
            .uses = {{drawing, "So many steps of colour, 256 at most [smooth]"}},
+           .noun = "steps",
            .most = 256,
            .unlike = kDrawn}};
 }
 
 std::vector<Option> options_of_many() {
-  return {{.name = "resume",
-           .kind = Kind::kFlag,
-           .group = Group::kMany,
-           .target = to<&ManyRequest::resumes>,
-           .uses = {{kBatch,
-                     "Keep the results that there are, and do what they have not, or not of these "
-                     "inputs and options"}},
-           .few = kBatch,
-           .unlike = kHost},
-          {.name = "shard",
-           .kind = Kind::kPart,
-           .group = Group::kMany,
-           .target = to<&ManyRequest::shard>,
-           .uses = {{kBatch,
-                     "Do one of n parts of the list, i from 0; which pairs it has is a matter of "
-                     "their ids alone"}},
-           .shape = "i/n",
-           .unlike = kHost},
-          {.name = "fail-fast",
-           .kind = Kind::kFlag,
-           .group = Group::kMany,
-           .target = to<&ManyRequest::fails_fast>,
-           .uses = {{kBatch, "End with the first pair that is beyond its limit or has no answer"}},
-           .unlike = kHost},
-          {.name = "list",
-           .kind = Kind::kInput,
-           .group = Group::kMany,
-           .target = to<&ManyRequest::list>,
-           .uses = {{kMerge,
-                     "Name the pairs of this list that have no result; exit code 3 if there are "
-                     "any"}},
-           .shape = "LIST"},
-          {.name = "reproducible",
-           .kind = Kind::kFlag,
-           .group = Group::kMany,
-           .target = to<&ManyRequest::reproducible>,
-           .uses = {{kMerge,
-                     "Leave out times, hosts and devices, so that two runs can be compared byte "
-                     "for byte"}}},
-          {.name = "together",
-           .kind = Kind::kCount,
-           .group = Group::kMany,
-           .target = to<&StreamOptions::together>,
-           .uses = {{kBatch, "Pairs side by side on a device [16 on a GPU, 1 on a CPU]"}},
-           .functions = kPyMany,
-           .least = 1,
-           .most = 65536,
-           .unlike = kHost},
-          {.name = "lanes",
-           .kind = Kind::kCount,
-           .group = Group::kMany,
-           .target = to<&StreamOptions::lanes>,
-           .uses = {{kBatch, "Groups of them at a time on a device [3 on a GPU, 1 on a CPU]"}},
-           .functions = kPyMany,
-           .least = 1,
-           .most = 65536,
-           .unlike = kHost},
-          {.name = "read-ahead",
-           .kind = Kind::kSize,
-           .group = Group::kMany,
-           .target = to<&ManyRequest::read_ahead_bytes>,
-           .uses = {{kBatch, "Memory for meshes that are read and not solved yet [2GiB]"}},
-           .unlike = kHost}};
+  return {
+      {.name = "against",
+       .kind = Kind::kInput,
+       .group = Group::kMany,
+       .target = to<&ManyRequest::against>,
+       .uses = {{kBatch, "One mesh to go to for all that are named"}},
+       .few = kBatch,
+       .shape = "B",
+       .unlike = "the hash of the file is in the key"},
+      {.name = "allow-unpaired",
+       .kind = Kind::kFlag,
+       .group = Group::kMany,
+       .target = to<&ManyRequest::allows_unpaired>,
+       .uses = {{kBatch,
+                 "Name and count the meshes of two folders that have no partner, and let them cost "
+                 "no exit code [each is a pair without an answer, code 4]"}},
+       .unlike = "such a mesh has no pair"},
+      {.name = "resume",
+       .kind = Kind::kFlag,
+       .group = Group::kMany,
+       .target = to<&ManyRequest::resumes>,
+       .uses = {{kBatch,
+                 "Keep the results that there are, and do what they have not, or not of these "
+                 "inputs and options"}},
+       .few = kBatch,
+       .unlike = kHost},
+      {.name = "shard",
+       .kind = Kind::kPart,
+       .group = Group::kMany,
+       .target = to<&ManyRequest::shard>,
+       .uses = {{kBatch,
+                 "Do one of n parts of the list, i from 0; which pairs it has is a matter of "
+                 "their ids alone"}},
+       .shape = "i/n",
+       .unlike = kHost},
+      {.name = "fail-fast",
+       .kind = Kind::kFlag,
+       .group = Group::kMany,
+       .target = to<&ManyRequest::fails_fast>,
+       .uses = {{kBatch, "End with the first pair that is beyond its limit or has no answer"}},
+       .unlike = kHost},
+      {.name = "list",
+       .kind = Kind::kInput,
+       .group = Group::kMany,
+       .target = to<&ManyRequest::list>,
+       .uses = {{kMerge,
+                 "Name the pairs of this list that have no result; exit code 3 if there are "
+                 "any"}},
+       .shape = "LIST"},
+      {.name = "reproducible",
+       .kind = Kind::kFlag,
+       .group = Group::kMany,
+       .target = to<&ManyRequest::reproducible>,
+       .uses = {{kMerge,
+                 "Leave out times, hosts and devices, so that two runs can be compared byte "
+                 "for byte"}}},
+      {.name = "together",
+       .kind = Kind::kCount,
+       .group = Group::kMany,
+       .target = to<&StreamOptions::together>,
+       .uses = {{kBatch, "Pairs side by side on a device [16 on a GPU, 1 on a CPU]"}},
+       .functions = kPyMany,
+       .noun = "pairs",
+       .least = 1,
+       .most = 65536,
+       .unlike = kHost},
+      {.name = "lanes",
+       .kind = Kind::kCount,
+       .group = Group::kMany,
+       .target = to<&StreamOptions::lanes>,
+       .uses = {{kBatch, "Groups of them at a time on a device [3 on a GPU, 1 on a CPU]"}},
+       .functions = kPyMany,
+       .noun = "groups",
+       .least = 1,
+       .most = 65536,
+       .unlike = kHost},
+      {.name = "read-ahead",
+       .kind = Kind::kSize,
+       .group = Group::kMany,
+       .target = to<&ManyRequest::read_ahead_bytes>,
+       .uses = {{kBatch, "Memory for meshes that are read and not solved yet [2GiB]"}},
+       .unlike = kHost}};
 }
 
 std::vector<Option> options_of_cost() {
@@ -683,6 +693,7 @@ std::vector<Option> options_of_cost() {
        .functions = kPyDistance | kPyGate | kPyMetrics | kPyMany | kPySimplify,
        .shape = "DEVICE",
        .choices = {"gpu", "cpu", "all"},
+       .none = "''",
        .unlike = kHost},
       {.name = "time",
        .kind = Kind::kTime,
@@ -712,6 +723,7 @@ std::vector<Option> options_of_cost() {
        .target = to<&SolveOptions::wave_limit>,
        .uses = {{kSolving, "End the search after so many waves [no limit]"}},
        .functions = kPySolving,
+       .noun = "waves",
        .most = 4294967295},
       {.name = "preset",
        .kind = Kind::kChoice,
@@ -722,7 +734,8 @@ std::vector<Option> options_of_cost() {
                  "the paper has; baseline-gpu, the paper's baseline [default]"}},
        .functions = kPySolving,
        .shape = "NAME",
-       .choices = preset_names()},
+       .choices = preset_names(),
+       .none = "''"},
       {.name = "enable",
        .kind = Kind::kNames,
        .group = Group::kCost,
@@ -761,7 +774,7 @@ const Option* first(const Is& is) {
 
 const char* heading_of(Group group) {
   constexpr std::array kHeadings{"What is asked",
-                                 "What the meshes are in, and where A lies",
+                                 "What the meshes are, and where A lies",
                                  "What is printed and written",
                                  "How it is drawn",
                                  "How a batch goes on",
@@ -788,11 +801,6 @@ const Option* column_of(std::string_view name) {
   return first([&](const Option& o) { return o.is_column && column_name(o) == name; });
 }
 
-const Option* keyword_of(Functions function, std::string_view name) {
-  return first(
-      [&](const Option& o) { return (o.functions & function) != 0 && keyword_name(o) == name; });
-}
-
 std::string column_name(const Option& option) { return with_underscores(option.name); }
 
 std::string keyword_name(const Option& option) {
@@ -800,15 +808,20 @@ std::string keyword_name(const Option& option) {
 }
 
 std::string keyword_default(const Option& option, Functions function) {
-  const std::string_view name = option.name;
-  if (name == "tol") return function == kPyMany ? "None" : function == kPyGate ? "1e-7" : "1e-6";
-  if (name == "field-tol") return "False";
-  if (name == "polygons") return "'refuse'";
-  if (name == "bodies") return "'solid'";
-  if (name == "preset" || name == "device") return "''";
-  if (option.kind == Kind::kFlag) return "False";
-  if (option.kind == Kind::kPercentile) return "95";
-  return option.kind == Kind::kNames || option.kind == Kind::kLengths ? "()" : "None";
+  if (*option.none != '\0') return option.none;
+  switch (option.kind) {
+    case Kind::kFlag:
+      return "False";
+    case Kind::kPercentile:
+      return "95";
+    case Kind::kNames:
+    case Kind::kLengths:
+      return "()";
+    case Kind::kTolerance:
+      return function == kPyMany ? "None" : function == kPyGate ? "1e-7" : "1e-6";
+    default:
+      return "None";
+  }
 }
 
 const Use* use_of(const Option& option, Commands command) {

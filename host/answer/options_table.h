@@ -3,7 +3,6 @@
 // completions and the package's signatures are made from it by tools/options.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -55,7 +54,8 @@ using Member = T& (*)(Request&);
 /// An option that fills in more than one member, or one by a rule of its own.
 struct Own {
   void (*put)(const Given& given, Request& asked);
-  std::string (*text)(const Request& asked);  ///< for keys: another one for each other value
+  /// For keys, another one for each other value; null: it is in none.
+  std::string (*text)(const Request& asked);
 };
 
 using Target =
@@ -91,8 +91,10 @@ struct Option {
   const char* shape = "";                 ///< of its value in help; empty: the kind's
   std::vector<std::string> choices = {};  ///< of other kinds than kChoice and kNames: some of many
   bool has_others = false;     ///< of names: choices are not all, and complete() checks them
-  double least = 0, most = 0;             ///< of counts and numbers
-  std::vector<std::string> also = {};     ///< what people call it, in lower case without blanks
+  const char* noun = "";       ///< what a count is of, in the plural
+  const char* none = "";       ///< Python's default, where the kind does not say it
+  double least = 0, most = 0;  ///< of counts and numbers
+  std::vector<std::string> also = {};  ///< what people call it, in lower case without blanks
   const char* unlike = "";  ///< why two values are one question: not part of a pair's key
 };
 
@@ -101,9 +103,8 @@ const std::vector<Option>& options();
 
 /// The row of this name on the command line, or null.
 const Option* option_of(std::string_view name);
-/// The row of a list's column, or of a function's keyword; null if there is none.
+/// The row of a list's column, or null.
 const Option* column_of(std::string_view name);
-const Option* keyword_of(Functions function, std::string_view name);
 
 /// The option's name in lists, and in Python.
 std::string column_name(const Option& option);

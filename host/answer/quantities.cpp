@@ -167,6 +167,10 @@ double parse_angle(const char* option, const std::string& text) {
                      "an angle above 0 and at most 90 degrees, such as 20deg");
 }
 
+Length default_tolerance(bool has_limit) {
+  return parse_length("tol", has_limit ? "1e-7" : "1e-6", PlainNumber::kFraction);
+}
+
 PartOf parse_part(const char* option, const std::string& text) {
   PartOf part;
   const char* end = text.data() + text.size();

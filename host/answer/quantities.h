@@ -35,6 +35,9 @@ void check_percentile(const char* option, double percentile);
 /// An angle above 0 and at most 90 degrees.
 double parse_angle(const char* option, const std::string& text);
 
+/// The width of an interval where none is asked for: a gate's is finer.
+Length default_tolerance(bool has_limit);
+
 /// "3/8": part 3, from 0, of 8. Throws UsageError.
 PartOf parse_part(const char* option, const std::string& text);
 

@@ -47,7 +47,7 @@ struct ManyRequest {
   std::vector<std::string> files;  ///< as they were named: a list, folders, meshes or results
   std::string against;             ///< one B for each of `files`; empty: they name pairs
   bool allows_unpaired = false;    ///< a file without a partner there is no failure
-  std::string list;  ///< merge: the list whose ids must be there; empty: no check
+  std::string list;                ///< merge: the list whose ids must be there; empty: no check
   std::optional<std::string> image_folder, report_folder;
   PartOf shard;
   bool resumes = false, fails_fast = false;

@@ -6,17 +6,20 @@
 
 #include "host/answer/option_values.h"
 #include "host/answer/options_table.h"
+#include "host/answer/quantities.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {
 
 using Names = std::vector<std::string_view>;
-constexpr Commands kProgram = kPython - 1, kAll = kProgram | kPython;
+constexpr Commands kProgram =
+    kDistance | kGate | kMetrics | kBatch | kMerge | kSimplify | kDemo | kDoctor;
+constexpr Commands kAll = kProgram | kPython;
 
 using When = std::function<bool(const Request&)>;
 
-/// `when` holds and one of `options` was given, or there are none: refused with what it says, where
+/// `when` holds and one of `options` was given: refused with what it says, where
 /// "{option}" is that one, and "{stats}" the name of another.
 struct Rule {
   Names options;
@@ -88,7 +91,7 @@ std::vector<Rule> rules_of_limits() {
       {{"certificate"},
        [](const Request& asked) { return asked.has("area") || is_by_face(asked); },
        "{certificate}: is of the interval, not to be had with {area} or {face-max}",
-       kDistance | kGate | kDemo | kPython},
+       kDistance | kGate | kPython},
       {{"polygons"},
        [](const Request& asked) {
          return asked.question.limits.any_triangulation && is_of_triangles(asked);
@@ -217,8 +220,7 @@ void complete_outputs(Request& asked) {
 
 void complete_batch(Request& asked) {
   Question& question = asked.question;
-  if (!asked.has("tol"))
-    question.tolerance = parse_length("", question.max ? "1e-7" : "1e-6", PlainNumber::kFraction);
+  if (!asked.has("tol")) question.tolerance = default_tolerance(question.max.has_value());
   question.statistics = question.is_signed;  // a line of results has figures
   question.options.time_limit_s = asked.time_limit_s;
   if (asked.metrics && !question.effort) question.effort = kEffortOfMetrics;
@@ -245,7 +247,7 @@ void complete(Request& asked, const Naming& naming) {
   complete_outputs(asked);
   if (asked.command == kBatch) complete_batch(asked);
   if (asked.command != kSimplify) return;
-  question.tolerance = {.requested = "1e-7", .number = 1e-7};
+  question.tolerance = default_tolerance(true);
   question.symmetric = !asked.simplify.one_way;
 }
 

@@ -84,7 +84,7 @@ struct Places {
 
 std::string case_name_of(const Request& asked) {
   const Question& question = asked.question;
-  return pair_name(question.file_a, question.file_b, question.symmetric, max_text(asked));
+  return pair_name(question.file_a, question.file_b, question.symmetric, typed_max(asked));
 }
 
 Places places_of(const Request& asked) {

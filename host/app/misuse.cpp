@@ -144,7 +144,11 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error,
   if (stray && std::find(words.begin(), words.end(), "--json") != words.end()) {
     return std::string(error.what()) + "; JSON goes into a file by --json=FILE, without a space";
   }
-  return error.what() + see_help(command);
+  const std::string said = error.what();
+  const size_t missing = said.find(": 1 required ");
+  if (missing != std::string::npos && said.ends_with(" missing"))
+    return said.substr(0, missing) + ": expected a value" + see_help(command);
+  return said + see_help(command);
 }
 
 }  // namespace vkh

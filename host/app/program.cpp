@@ -57,7 +57,8 @@ void add_option(const Option& option, const Use& use, const TypedCommand& of, Ty
   if (!shape.empty()) typed.option->type_name(shape);
   typed.option->required(use.required);
   if (*use.otherwise != '\0') typed.option->default_str(use.otherwise);
-  if (!is_short(of.command->bit)) typed.option->group(heading_of(option.group));
+  if (!is_short(of.command->bit))
+    typed.option->group(use.required ? "What must be given" : heading_of(option.group));
 }
 
 /// Hides what --help does not show, and says how much that is.
@@ -86,8 +87,12 @@ void put_typed(const Option& option, const TypedOption& typed, Commands command,
     return;
   }
   std::vector<std::string> texts = typed.texts;
-  const bool is_lone = option.kind == Kind::kFlag && (typed.text.empty() || typed.text == kLone);
-  if (!is_lone && !has_commas(option)) texts = {typed.text};
+  const bool is_json = option.kind == Kind::kFlag && *option.shape != '\0';
+  if (option.kind == Kind::kFlag && !is_json) {
+    texts = {typed.flag ? "true" : "false"};  // --stats=false
+  } else if (!has_commas(option) && !(is_json && typed.text == kLone)) {
+    texts = {typed.text};
+  }
   put(option, {said, texts}, asked);
 }
 
@@ -124,9 +129,12 @@ void Program::add(const Command& command) {
                                        : typed.app->add_option(one.name, typed.files[i], one.help);
     made->required()->check(check_value);
   }
-  for (const Option& option : options()) {
-    const Use* use = use_of(option, command.bit);
-    if (use != nullptr) add_option(option, *use, typed, typed.options[&option]);
+  for (const bool is_required : {true, false}) {
+    for (const Option& option : options()) {
+      const Use* use = use_of(option, command.bit);
+      if (use != nullptr && use->required == is_required)
+        add_option(option, *use, typed, typed.options[&option]);
+    }
   }
   typed.app->footer(command.footer + (command.footer.empty() ? "" : "\n\n") +
                     "Exit codes: " + command.codes);
@@ -154,10 +162,10 @@ Request Program::asked() const {
     const auto one = typed->options.find(&option);
     if (one != typed->options.end()) put_typed(option, one->second, asked.command, asked);
   }
-  const bool is_of_pair = asked.command == kDistance || asked.command == kGate ||
-                          asked.command == kMetrics || asked.command == kSimplify;
-  if (is_of_pair) asked.question.file_a = typed->files[0];
-  if (typed->files.size() > 1) asked.question.file_b = typed->files[1];
+  const std::vector<Positional>& named = typed->command->positionals;
+  const bool is_of_meshes = !named.empty() && !named[0].is_several;
+  if (is_of_meshes) asked.question.file_a = typed->files[0];
+  if (is_of_meshes && named.size() > 1) asked.question.file_b = typed->files[1];
   asked.many.files = typed->files;
   return asked;
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "host/answer/quantities.h"
 #include "host/base/decimal.h"
 #include "host/base/system.h"
 #include "vkhausdorff/error.h"
@@ -48,8 +49,7 @@ void put_row(const Entry& entry, Request& asked) {
   for (const auto& [option, text] : entry.options)
     put(*option, {column_name(*option), std::span(&text, 1)}, asked);
   Question& question = asked.question;
-  if (!asked.has("tol") && question.max)
-    question.tolerance = parse_length("tol", "1e-7", PlainNumber::kFraction);
+  if (!asked.has("tol")) question.tolerance = default_tolerance(question.max.has_value());
   if (!question.transform_file.empty())
     question.transform = read_matrix(path_of(question.transform_file));
   question.statistics = question.is_signed;

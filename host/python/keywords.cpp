@@ -7,6 +7,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "host/answer/option_values.h"
 #include "host/answer/quantities.h"
 #include "host/answer/rules.h"
 #include "host/base/decimal.h"
@@ -36,10 +37,6 @@ struct Value {
   std::string text() const { return text_from(name, expected, given); }
 };
 
-std::string or_none(const std::string& expected, bool takes_none) {
-  return expected + (takes_none ? ", or None" : "");
-}
-
 /// Whether None is as good as nothing.
 bool takes_none(const Option& option, Functions function) {
   switch (option.kind) {
@@ -58,13 +55,10 @@ bool takes_none(const Option& option, Functions function) {
   }
 }
 
-std::string named_choices(const Option& option) {
-  std::string text;
-  for (size_t i = 0; i < option.choices.size(); ++i) {
-    const bool is_last = i + 1 == option.choices.size();
-    text += (i == 0 ? "'" : is_last ? " or '" : ", '") + option.choices[i] + "'";
-  }
-  return text;
+std::string quoted_choices(const Option& option) {
+  std::vector<std::string> quoted;
+  for (const std::string& choice : option.choices) quoted.push_back("'" + choice + "'");
+  return joined(quoted, " or ");
 }
 
 std::string expected_of_kind(const Option& option) {
@@ -90,14 +84,13 @@ std::string expected_of_kind(const Option& option) {
     case Kind::kTime:
       return "a number of seconds, 0 or more";
     case Kind::kCount:
-      return "a whole number from " + shortest_decimal(option.least) + " to " +
-             std::to_string(static_cast<uint64_t>(option.most));
+      return whole_number(option);
     case Kind::kFile:
       return "the path of a file that ends in .vhc";
     case Kind::kInput:
       return "an array of four rows of four numbers, the last 0 0 0 1, the path of such a file";
     default:
-      return named_choices(option);
+      return quoted_choices(option);
   }
 }
 
@@ -190,7 +183,7 @@ uint64_t whole_of(const Option& option, const Arguments& all, const Value& value
   return number;
 }
 
-std::string text_of(const Option& option, const Value& value) {
+std::string checked_text(const Option& option, const Value& value) {
   if (option.kind == Kind::kFile) {
     const std::optional<std::string> path = path_from(value.name, value.given);
     if (!path) refuse_type(value.name, value.expected, value.given);
@@ -326,7 +319,7 @@ struct Put {
   template <class T>
   T read() const {
     if constexpr (std::is_same_v<T, bool>) return all.flag(value.name);
-    if constexpr (std::is_same_v<T, std::string>) return text_of(option, value);
+    if constexpr (std::is_same_v<T, std::string>) return checked_text(option, value);
     if constexpr (std::is_same_v<T, Length>) {
       const bool is_tolerance = option.kind == Kind::kTolerance;
       return length_from(value, is_tolerance ? Length::Of::kDiagonal : Length::Of::kFiles);
@@ -358,7 +351,10 @@ std::string expected_of(const Option& option, Functions function) {
   const bool is_max = std::string_view(option.name) == "max";
   if (is_max && function == kPyGate)
     return expected_of_kind(option) + ", or a number for each face of A";
-  return or_none(expected_of_kind(option), takes_none(option, function));
+  std::string expected = expected_of_kind(option);
+  if (takes_none(option, function)) return expected + ", or None";
+  const size_t last = expected.find(", a string");  // it is the last that it may be
+  return last == std::string::npos ? expected : expected.insert(last + 2, "or ");
 }
 
 void read(const Option& option, Functions function, const Arguments& all, Request& asked) {
@@ -421,12 +417,10 @@ Request request_of(Functions function, const char* command, const Arguments& giv
   asked.metrics = function == kPyMetrics;
   Question& question = asked.question;
   question.command = command;
-  question.tolerance = {.requested = "1e-6", .number = kTolerance};
   question.survey_time_s = std::numeric_limits<double>::infinity();
   for_each_keyword(function, {"device"},
                    [&](const Option& option) { read(option, function, given, asked); });
-  if (question.max && !asked.has("tol"))
-    question.tolerance = {.requested = shortest_decimal(kGateTolerance), .number = kGateTolerance};
+  if (!asked.has("tol")) question.tolerance = default_tolerance(question.max.has_value());
   check_together(asked, named);
   complete(asked, named);
   question.options.time_limit_s = asked.time_limit_s;

@@ -33,7 +33,7 @@ Result streamed_result(const Question& question, FlowResult&& found) {
   return result;
 }
 
-constexpr const char* kDevice =
+constexpr const char* kSelectors =
     "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, or "
     "'all'";
 
@@ -57,7 +57,7 @@ FlowQuestion asked_from(const Arguments& given) {
   asked.question = std::move(request.question);
   asked.ahead = ahead_of(given);
   asked.devices = std::move(request.many.devices);
-  asked.devices.devices = given.devices(kDevice);
+  asked.devices.devices = given.devices(kSelectors);
   if (is_given(given, "against"))
     asked.against =
         kept(mesh_of("against", "B", given.at("against"), asked.question.limits_of(true)));

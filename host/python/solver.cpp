@@ -390,7 +390,8 @@ Result gate(const py::args& positional, const py::kwargs& named) {
 
 Result metrics(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature(
-      signature_of(kPyMetrics, "metrics", {"a", "b", "progress", "on_progress"}, 2, 2));
+      signature_of(kPyMetrics, "metrics",
+                   {"a", "b", "spacing", "affine", "empty", "progress", "on_progress"}, 2, 2));
   const Call call;
   const Arguments arguments(*signature, positional, named);
   return answered({kPyMetrics, "metrics", arguments, mesh_of("a", "A", arguments.at("a")),

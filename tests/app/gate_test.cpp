@@ -463,7 +463,7 @@ TEST_CASE("--bodies all measures what a scene hides, and build servers are told"
   CHECK(all.out.find("%0A" + included) != std::string::npos);
   const Outcome wrong = told({"--bodies", "none"});
   CHECK(wrong.exit_code == 2);
-  CHECK(wrong.err.find("--bodies 'none': expected one of solid, all") != std::string::npos);
+  CHECK(wrong.err.find("--bodies 'none': expected solid or all") != std::string::npos);
 }
 
 TEST_CASE("names that would break a line, a terminal or XML are escaped") {

@@ -108,11 +108,33 @@ TEST_CASE("a column means what its option does") {
   CHECK(columns == 10);
 }
 
+TEST_CASE("a flag that is turned off is as one that is not there") {
+  const std::string none = key_text(typed(std::vector<std::string>()));
+  for (const Option& option : options()) {
+    const bool is_plain = option.kind == Kind::kFlag && *option.shape == '\0';
+    if (!is_plain || use_of(option, kBatch) == nullptr) continue;
+    CAPTURE(option.name);
+    const Request off = typed({std::string("--") + option.name + "=false"});
+    CHECK(key_text(off) == none);
+    CHECK(!off.has(option.name));
+    const std::string cell = "no";
+    Request row = typed({std::string("--") + option.name});
+    CHECK(row.has(option.name));
+    put(option, {column_name(option), std::span(&cell, 1)}, row);
+    CHECK(key_text(row) == none);
+    CHECK(!row.has(option.name));
+  }
+}
+
 TEST_CASE("few options have a setter of their own") {
   size_t own = 0;
   std::set<std::string> names;
   for (const Option& option : options()) {
-    if (std::holds_alternative<Own>(option.target)) ++own;
+    const Own* rule = std::get_if<Own>(&option.target);
+    own += rule != nullptr ? 1 : 0;
+    const bool is_in_keys = option.is_column || use_of(option, kBatch) != nullptr;
+    if (rule != nullptr && rule->text == nullptr && is_in_keys)
+      CHECK_MESSAGE(*option.unlike != '\0', option.name);
     CHECK_MESSAGE(names.insert(option.name).second, option.name);
   }
   CHECK(own <= 10);

@@ -396,7 +396,7 @@ class Points(unittest.TestCase):
                 (["distance", "a.ply", "b.ply"], 4, "2 points and no element 'face'"),
                 (["distance", "b.ply", "a.ply", "--points", "a"], 4, "1 face in a file of points"),
                 (["distance", "b.ply", "b.ply", "--points", "both"], 4, "1 face in a file of points"),
-                (["distance", "a.ply", "b.ply", "--points", "c"], 2, "expected one of a, b, both"),
+                (["distance", "a.ply", "b.ply", "--points", "c"], 2, "expected a, b or both"),
                 (["distance", "b.ply", "a.ply", "--points", "b", "--signed"], 2, "--signed: a.ply is points, which have no sides"),
                 (["distance", "a.ply", "b.ply", "--points", "a", "--symmetric", "--signed"], 2, "which have no sides"),
                 (["distance", "a.ply", "b.ply", "--points", "a", "--field", "x.glb"], 2, "written as .ply"),

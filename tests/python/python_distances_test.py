@@ -108,11 +108,11 @@ class Many(unittest.TestCase):
             vkh.distances(5)
         for wrong, kind, said in ((dict(device="nonesuch"), vkh.DeviceError, "no usable Vulkan device matches 'nonesuch'"),
                                   (dict(device="cpu,cpu"), ValueError, "named more than once"),
-                                  (dict(preset="pape"), ValueError, "no preset is called 'pape'"),
+                                  (dict(preset="pape"), ValueError, "preset: expected 'default', 'paper' or 'baseline-gpu'"),
                                   (dict(disable=["u9"]), ValueError, "'u9'")):
             with self.subTest(**wrong), self.assertRaisesRegex(kind, said):
                 list(vkh.distances(PAIRS, **wrong))
-        self.assertTrue(str(inspect.signature(vkh.distances)).startswith("(pairs, *, against=None, tol=None, symmetric=False"))
+        self.assertTrue(str(inspect.signature(vkh.distances)).startswith("(pairs, *, on_progress=None, against=None, ahead=None, max=None, tol=None"))
 
     def test_two_threads(self):
         ends = {}

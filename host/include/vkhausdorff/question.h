@@ -2,6 +2,7 @@
 // row of a list and Python fill it in; the program turns it into an answer by the steps of Asking.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -94,9 +95,12 @@ struct Question {
     return faces || statistics || metrics || !bands.empty() || area || map_pixels > 0 ||
            asks_for_sides();
   }
-  /// An option's name in messages: with dashes where the question was typed on a command line.
+  /// An option's name in messages: --max-distance where the question was typed on a command line,
+  /// max_distance elsewhere.
   std::string option(const char* name) const {
-    return std::string(words.empty() ? "" : "--") + name;
+    std::string text = name;
+    if (words.empty()) std::replace(text.begin(), text.end(), '-', '_');
+    return words.empty() ? text : "--" + text;
   }
   bool asks_for_cells() const { return certificate || asks_for_survey(); }
 };
