@@ -225,6 +225,8 @@ ROWS = [
     row("minorant_off's slacks", CELL, "rounding + s.slack + t.slack", ["rounding + s.slack", "rounding"], ON_CELL),
     row("a cell's distance's slacks", CELL, "s.at, inside)) + (s.slack + t.slack)", ["s.at, inside)) + t.slack", "s.at, inside))"], ON_CELL),
     row("a cut's slacks", CELL, "s.at)) + (s.slack + t.slack), 3.0f", ["s.at)), 3.0f"], ON_CELL),
+    row("what is beyond the best", CELL, "is_beyond(m.at_corners, g.best)",
+        ["is_beyond(m.at_corners, 0.999f * g.best)", "is_beyond(m.at_corners, 0.5f * g.best)"], ON_CELL),
     row("plane_above's cuts", CELL, "max(max(p - on_p, q - on_q), 0.0f)", ["max(p - on_p, 0.0f)", "0.0f"], ON_CELL),
     row("a cut's third piece", CELL, "1.0f - to_p, to_p * (1.0f - to_q)", ["1.0f - to_p, 0.0f"], ON_CELL),
     row("a cut's other side", CELL, "max(ps, pr), to_q, max(qs, qr)", ["min(ps, pr), to_q, min(qs, qr)"], ON_CELL),
