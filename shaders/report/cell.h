@@ -80,7 +80,7 @@ VKH_FN Gathered nothing_gathered() {
   Gathered g;
   g.triangle = kNone;
   g.along = vec3(0.0f, 0.0f, 0.0f);
-  g.below = g.along;
+  g.below = vec3(-3.0e37f, -3.0e37f, -3.0e37f);
   g.best = vec3(3.0e38f, 3.0e38f, 3.0e38f);
   g.corners = vec3(3.0e38f, 3.0e38f, 3.0e38f);
   g.of_corners = uvec3(kNone, kNone, kNone);
@@ -170,14 +170,26 @@ VKH_FN Gathered with_distances(Gathered g, vec3 d, uint triangle) {
   return with_upper(g, d, mean_up(d), mean_square_up(d));
 }
 
+// Takes the direction for all triangles if it gives S, the nearest to c, more than the one before.
+VKH_FN Gathered with_direction(Gathered g, CellFrame t, Surface s, vec3 direction) {
+  vec3 along = shortened(direction);
+  vec3 below = minorant(t, s, along, minorant_off(t, s)).at_corners;
+  bool better = sum3(below) > sum3(g.below);
+  g.along = choose(better, along, g.along);
+  g.below = choose(better, below, g.below);
+  return g;
+}
+
 // Adds S, one that is near: its bounds from above decide which others to examine. It gives no bound
-// from below until it is examined as they are.
+// from below until it is examined as they are. Next to S the closest point's direction is what
+// rounding leaves, and its normal serves.
 VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
   Gathered g = nothing_gathered();
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   g.triangle = triangle;
-  g.along = shortened(c.offset);
-  g.below = minorant(t, s, g.along, minorant_off(t, s)).at_corners;
+  vec3 normal = cross3(s.at.b - s.at.a, s.at.c - s.at.a);
+  g = with_direction(g, t, s, c.offset);
+  g = with_direction(g, t, s, choose(dot3(normal, c.offset) < 0.0f, -normal, normal));
   return with_distances(g, cell_distances(t, s), triangle);
 }
 
