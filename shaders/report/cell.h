@@ -8,9 +8,10 @@
 // Below: for any g with |g| <= 1, d(x, S) >= min over the corners s of S of g.(x - s), an affine
 // function of x. The least of several, one for each S, is concave: over T it is at least its least
 // value at T's corners, and its mean is at least theirs. It is under d(., B) where every S that may
-// be closest somewhere on T has one. With r the distance of T's farthest corner from a centre c, no
-// S is that is farther from c than d(c, B) + 2 r. The triangles that are not examined, at least D
-// from c, give D - |x - c|, which is concave, too.
+// be closest somewhere on T has one. With u not less than d(., B) on T, and r the distance of T's
+// farthest corner from a centre c, no S is that is farther from c than u + r: at any x of T it
+// would be farther than u. Nor is one that is beyond another (is_beyond). The triangles that are
+// not examined, at least D from c, give D - |x - c|, which is concave, too.
 //
 // T is computed in plain floats around c, S too (Surface::coarse); Cell::slack and Surface::slack
 // bound the error. docs/certificate.md adds it up.
@@ -61,8 +62,8 @@ VKH_FN View cell_view(CellFrame cell) {
 
 // Bounds over the triangles of B examined so far.
 struct Gathered {
-  float nearest;     // >= d(c, B)
-  uint triangle;     // the one that this is the distance from
+  uint triangle;     // the first of them, the nearest to c
+  vec3 best;         // >= the corners' distances from the one that these add up to least for
   vec3 along;        // a direction that serves the triangles around it, where B is flat
   vec3 below;        // with the affine function of that one
   vec3 corners;      // >= d(x, B) at T's corners
@@ -77,10 +78,10 @@ struct Gathered {
 
 VKH_FN Gathered nothing_gathered() {
   Gathered g;
-  g.nearest = 3.0e38f;
   g.triangle = kNone;
   g.along = vec3(0.0f, 0.0f, 0.0f);
-  g.below = g.along;
+  g.below = vec3(-3.0e37f, -3.0e37f, -3.0e37f);
+  g.best = vec3(3.0e38f, 3.0e38f, 3.0e38f);
   g.corners = vec3(3.0e38f, 3.0e38f, 3.0e38f);
   g.of_corners = uvec3(kNone, kNone, kNone);
   g.centre = 3.0e38f;
@@ -162,37 +163,49 @@ VKH_FN Gathered with_corners(Gathered g, vec3 d, uint triangle) {
   return g;
 }
 
-// d(c, S) from above.
-VKH_FN float centre_distance(CellFrame t, Surface s, Closest c) {
-  return round_up(length_up(c.distance2) + s.slack + t.slack, 3.0f);
-}
-
-// Adds S, one that is near: its bounds from above decide which others to examine. It gives no bound
-// from below until it is examined as they are.
-VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
-  Gathered g = nothing_gathered();
-  Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
-  g.nearest = centre_distance(t, s, c);
-  g.triangle = triangle;
-  g.along = shortened(c.offset);
-  g.below = minorant(t, s, g.along, minorant_off(t, s)).at_corners;
-  vec3 d = cell_distances(t, s);
+// Adds a triangle's distances from T's corners.
+VKH_FN Gathered with_distances(Gathered g, vec3 d, uint triangle) {
+  if (sum3(d) < sum3(g.best)) g.best = d;
   g = with_corners(g, d, triangle);
   return with_upper(g, d, mean_up(d), mean_square_up(d));
 }
 
-// Examines S, too. Its own direction is from its closest point to the centre.
+// Takes the direction for all triangles if it gives S, the nearest to c, more than the one before.
+VKH_FN Gathered with_direction(Gathered g, CellFrame t, Surface s, vec3 direction) {
+  vec3 along = shortened(direction);
+  vec3 below = minorant(t, s, along, minorant_off(t, s)).at_corners;
+  bool better = sum3(below) > sum3(g.below);
+  g.along = choose(better, along, g.along);
+  g.below = choose(better, below, g.below);
+  return g;
+}
+
+// Adds S, one that is near: its bounds from above decide which others to examine. It gives no bound
+// from below until it is examined as they are. Next to S the closest point's direction is what
+// rounding leaves, and its normal serves.
+VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
+  Gathered g = nothing_gathered();
+  Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
+  g.triangle = triangle;
+  vec3 normal = cross3(s.at.b - s.at.a, s.at.c - s.at.a);
+  g = with_direction(g, t, s, c.offset);
+  g = with_direction(g, t, s, choose(dot3(normal, c.offset) < 0.0f, -normal, normal));
+  return with_distances(g, cell_distances(t, s), triangle);
+}
+
+// Examines S, too. Its own direction is from its closest point to the centre. It is left out if it
+// is beyond the best so far: that stays, or is beyond one that does. None is beyond itself or its
+// equal, since a minorant is lowered.
 VKH_FN Gathered gathered(Gathered g, CellFrame t, Surface s, uint triangle) {
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   float off = minorant_off(t, s);
   Minorant m = minorant(t, s, shortened(c.offset), off);
   m = better(m, minorant(t, s, g.along, off), g.below);
+  if (is_beyond(m.at_corners, g.best)) return g;
   g.centre = min(g.centre, m.centre);
   g.at_corners = min(g.at_corners, m.at_corners);
   if (!may_be_nearer(g, m)) return g;
-  vec3 d = cell_distances(t, s);
-  g = with_corners(g, d, triangle);
-  return with_upper(g, d, mean_up(d), mean_square_up(d));
+  return with_distances(g, cell_distances(t, s), triangle);
 }
 
 // d(p, S) from above, p off by T's slack.

@@ -44,7 +44,7 @@ float box_doubt(CellFrame t, float distance) {
 
 // Boxes at this distance, squared, or farther hold nothing that is closest anywhere on T.
 float cell_reach(Gathered g, CellFrame t) {
-  float far = round_up(g.nearest + 2.0 * t.radius, 4.0);
+  float far = round_up(g.highest + t.radius, 4.0);
   far = round_up(far + box_doubt(t, far), 8.0);
   return min(round_up(far * far, 8.0), 3.0e38);
 }
@@ -97,6 +97,7 @@ Gathered gather(CellFrame t, uint start) {
     not_leaves += 1u - (traversal_at >> 31);
     found += ((traversal_at >> 28) & 7u) + 1u;
     g = with_leaf(g, t, traversal_at, looked_at);
+    reach = min(reach, cell_reach(g, t));
     traversal_at = pop(reach);
   }
   if (traversal_at != kNone) ++left_count;  // the box taken from the top is left, too

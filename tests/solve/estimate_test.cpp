@@ -176,15 +176,17 @@ TEST_CASE("estimates are nearer to dense samples than the middles of intervals")
   double of_bands = 0, of_percentiles = 0, of_curves = 0;
   for (const auto& [a, b] : pairs) {
     const std::vector<Sample> samples = samples_of(a, b, 24);
-    const double band = percentile_of(samples, 0.4);
-    SurveyOptions options = statistics_alone({band});
+    std::vector<double> bands;
+    for (int tenth = 1; tenth < 10; ++tenth) bands.push_back(percentile_of(samples, tenth / 10.0));
+    SurveyOptions options = statistics_alone(bands);
     options.effort = 600;
     const SurveyResult r = survey_of(a, b, options);
     REQUIRE(r.statistics);
     const Statistics& s = *r.statistics;
     CHECK(gain(s.mean, mean_of(samples, false)) > 0);
     CHECK(gain(s.rms, std::sqrt(mean_of(samples, true))) > 0);
-    of_bands += gain(s.bands[0].share, share_of(samples, band));
+    for (const AreaWithin& band : s.bands)
+      of_bands += gain(band.share, share_of(samples, band.distance));
     for (const AreaWithin& step : s.curve)
       of_curves += gain(step.share, share_of(samples, step.distance));
     for (const Percentile& p : s.percentiles)

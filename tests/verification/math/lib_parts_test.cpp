@@ -303,6 +303,11 @@ struct Figures {
   Rational mean, square, mean_size, mean_over, square_over;
 };
 
+Weights exact_of(const glm::vec3& v) {
+  return {Rational(static_cast<double>(v.x)), Rational(static_cast<double>(v.y)),
+          Rational(static_cast<double>(v.z))};
+}
+
 Rational mean_of(const Weights& s) { return (s[0] + s[1] + s[2]) / 3; }
 Rational square_of_affine(const Weights& s) {
   return (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + s[0] * s[1] + s[1] * s[2] + s[2] * s[0]) / 6;
@@ -585,8 +590,7 @@ TEST_CASE("parts.h: closed forms of affine functions, from both sides") {
               {math::wide(plain.down), math::wide(plain.up), math::wide(both.down),
                math::wide(both.up)}};
     });
-    const auto exact_of = [](float x) { return Rational(static_cast<double>(x)); };
-    const Weights s{exact_of(v.x), exact_of(v.y), exact_of(v.z)};
+    const Weights s = exact_of(v);
     const Weights sizes{abs(s[0]), abs(s[1]), abs(s[2])};
     const Figures f = figures_of(s);
     const auto describe = [&] { return hex(glm::dvec3(v)); };
@@ -598,7 +602,8 @@ TEST_CASE("parts.h: closed forms of affine functions, from both sides") {
     tally.require(got.mean_down <= f.mean, "mean_down", describe);
     tally.require(got.mean_up >= mean_of(sizes), "mean_up", describe);
     tally.require(got.square_up >= square_of_affine(sizes), "mean_square_up", describe);
-    const Rational plain = exact_share(s, exact_of(t)), both = exact_share_of_size(s, exact_of(t));
+    const Rational at(static_cast<double>(t));
+    const Rational plain = exact_share(s, at), both = exact_share_of_size(s, at);
     tally.require(got.shares[0] <= plain && got.shares[1] >= plain, "share", describe);
     tally.require(got.shares[2] <= both && got.shares[3] >= both, "share of a size", describe);
     tally.measure("width of a share in 2^-24", 0x1p24 * (got.shares[3] - got.shares[2]), describe);
@@ -606,4 +611,240 @@ TEST_CASE("parts.h: closed forms of affine functions, from both sides") {
                   f.mean_size == 0 ? 0 : got.size_up / f.mean_size.get_d() - 1, describe);
   }
   tally.conclude(count);
+}
+
+namespace {
+
+/// Values of any sign at a triangle's corners, some 0, alike or each other's opposites, or too
+/// small for a quotient.
+glm::vec3 corner_values(Random& random) {
+  glm::vec3 v;
+  for (int i = 0; i < 3; ++i) v[i] = hard_float(random, random.below(4) == 0 ? -24 : -3, 0);
+  if (random.below(4) == 0) v = glm::abs(v) * (random.below(2) == 0 ? 1.0f : -1.0f);
+  if (random.below(8) == 0) v[static_cast<int>(random.below(3))] = 0;
+  if (random.below(8) == 0) v.y = v.x;
+  if (random.below(8) == 0) v.z = -v.x;
+  if (random.below(32) == 0) v *= 0x1p-100f;
+  return v;
+}
+
+/// The points that tell an affine function where s has one sign: the corners, and where s is 0 on
+/// an edge.
+struct Place {
+  Weights at;
+  Rational s;
+};
+std::vector<Place> places_of(const Weights& s) {
+  std::vector<Place> places;
+  for (size_t i = 0; i < 3; ++i) {
+    const size_t j = (i + 1) % 3;
+    Weights corner{0, 0, 0};
+    corner[i] = 1;
+    places.push_back({corner, s[i]});
+    if (s[i] * s[j] >= 0) continue;
+    Weights crossing{0, 0, 0};
+    crossing[i] = s[j] / (s[j] - s[i]);
+    crossing[j] = 1 - crossing[i];
+    places.push_back({crossing, 0});
+  }
+  return places;
+}
+
+Rational value_at(const Weights& function, const Weights& place) {
+  return function[0] * place[0] + function[1] * place[1] + function[2] * place[2];
+}
+
+/// What one triangle gives from below: what is taken from |h| on either side, and an affine
+/// function.
+struct Taken {
+  double over, under;
+  glm::vec3 at;
+};
+Taken taken_of(const math::Excess& e) {
+  return {math::wide(e.over), math::wide(e.under), math::answer(e.at)};
+}
+
+/// Whether x is nowhere above y less `off`.
+bool is_under(const Weights& x, const Weights& y, const Rational& off) {
+  return x[0] <= y[0] - off && x[1] <= y[1] - off && x[2] <= y[2] - off;
+}
+
+Weights opposite(const Weights& x) { return {-x[0], -x[1], -x[2]}; }
+
+}  // namespace
+
+TEST_CASE("parts.h: what a triangle gives from below, by its span and by a minorant") {
+  const uint64_t count = case_count() / 4;
+  Random random(7);
+  Tally tally("excesses");
+  for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
+    const glm::vec3 heights = corner_values(random), minorant = corner_values(random);
+    const glm::vec3 kept = random.below(2) == 0 ? corner_values(random) : glm::vec3(3.0e38f);
+    const float x = hard_float(random, -24, 0), y = hard_float(random, -24, 0);
+    const float off = std::abs(hard_float(random, -24, 0));
+    const Device device(i);
+    struct Both {
+      Taken by_span, by_both;
+    };
+    const Both got = device.run([&]() -> Both {
+      const math::vec3 h = math::given(heights);
+      const math::Excess e = math::excess_of_span(h, {std::min(x, y), std::max(x, y)}, off);
+      return {taken_of(e),
+              taken_of(math::with_minorant(e, h, math::given(minorant), math::given(kept)))};
+    });
+    const auto describe = [&] {
+      return std::string(device.name()) + ": " + hex(glm::dvec3(heights)) + " " +
+             hex(glm::dvec3(minorant)) + " " + hex(static_cast<double>(x)) + " " +
+             hex(static_cast<double>(y)) + " " + hex(static_cast<double>(off));
+    };
+    const Weights h = exact_of(heights), m = exact_of(minorant);
+    const Rational least(static_cast<double>(std::min(x, y))),
+        most(static_cast<double>(std::max(x, y))), doubt(static_cast<double>(off));
+    const Taken &span = got.by_span, &both = got.by_both;
+    tally.require(Rational(span.over) >= most + doubt, "over a span", describe);
+    tally.require(Rational(span.under) >= doubt - least, "under a span", describe);
+    tally.require(is_under(exact_of(span.at), h, most + doubt) ||
+                      is_under(exact_of(span.at), opposite(h), doubt - least),
+                  "an affine function by a span", describe);
+    tally.require(both.at == span.at || both.at == minorant, "one of two functions", describe);
+    for (const Place& place : places_of(h)) {
+      const Rational by_minorant = value_at(m, place.at);
+      tally.require(
+          both.over == span.over || place.s < 0 || Rational(both.over) >= place.s - by_minorant,
+          "over a minorant", describe);
+      tally.require(
+          both.under == span.under || place.s > 0 || Rational(both.under) >= -place.s - by_minorant,
+          "under a minorant", describe);
+    }
+    tally.count("taken by a minorant", both.over != span.over);
+  }
+  tally.conclude(count);
+  CHECK(tally.counted("taken by a minorant") > 0);
+}
+
+namespace {
+
+/// What some triangles give from below, and what a part makes of all of them.
+struct BelowCase {
+  glm::vec3 heights;
+  std::vector<Taken> triangles;
+  float slack, t;
+};
+
+BelowCase below_case(Random& random) {
+  BelowCase c{corner_values(random),
+              {},
+              std::abs(hard_float(random, -24, -4)),
+              std::abs(hard_float(random, -8, 0))};
+  const int scale = -static_cast<int>(random.below(24));
+  for (uint32_t k = 1 + random.below(3); k > 0; --k) {
+    c.triangles.push_back({static_cast<double>(hard_float(random, scale - 6, scale)),
+                           static_cast<double>(hard_float(random, scale - 6, scale)),
+                           corner_values(random)});
+  }
+  return c;
+}
+
+PartAnswer below_of(const BelowCase& c, const Device& device) {
+  return device.run([&]() -> PartAnswer {
+    math::PartBelow below = math::begin_below(math::given(c.heights));
+    for (const Taken& e : c.triangles) {
+      below = math::with_excess(
+          below, {static_cast<float>(e.over), static_cast<float>(e.under), math::given(e.at)});
+    }
+    const math::Corners nowhere = {math::given(glm::vec3(0)), math::given(glm::vec3(0)),
+                                   math::given(glm::vec3(0))};
+    const math::PartBound bound = math::part_below(math::whole_part(nowhere, c.slack), below);
+    PartAnswer out{};
+    out.below = answer_of(bound);
+    out.shares[0] = math::wide(math::perhaps_within(bound, c.t));
+    out.t = static_cast<double>(c.t);
+    return out;
+  });
+}
+
+/// Functions that some triangle says d is not under: |h| less these on either side, and the least
+/// of `at`, which is concave.
+struct Said {
+  Weights h;
+  Rational over = 0, under = 0;
+  Weights at;
+};
+Said said_by(const BelowCase& c) {
+  Said said{exact_of(c.heights), 0, 0, exact_of(c.triangles[0].at)};
+  const Rational slack(static_cast<double>(c.slack));
+  for (const Taken& e : c.triangles) {
+    said.over = std::max(said.over, Rational(e.over));
+    said.under = std::max(said.under, Rational(e.under));
+    for (size_t i = 0; i < 3; ++i) said.at[i] = std::min(said.at[i], exact_of(e.at)[i]);
+  }
+  said.over += slack, said.under += slack;
+  for (Rational& x : said.at) x -= slack;
+  return said;
+}
+
+Weights less(const Weights& x, const Rational& y) { return {x[0] - y, x[1] - y, x[2] - y}; }
+
+/// The mean of the positive part of what |h| leaves, and of its square: each side has its own.
+Figures figures_of_size(const Said& said) {
+  const Figures over = figures_of(less(said.h, said.over)),
+                under = figures_of(less(opposite(said.h), said.under));
+  return {0, 0, 0, over.mean_over + under.mean_over, over.square_over + under.square_over};
+}
+
+void check_below(const BelowCase& c, const Bound& b, Tally& tally, const auto& describe) {
+  const Said said = said_by(c);
+  Rational least = -1;
+  for (const Place& place : places_of(said.h)) {
+    const Rational at = value_at(said.at, place.at);
+    const Rational from_over = place.s - said.over, from_under = -place.s - said.under;
+    // Where h is 0 on an edge, both sides meet.
+    const Rational of_size = place.s > 0   ? from_over
+                             : place.s < 0 ? from_under
+                                           : std::max(from_over, from_under);
+    tally.require(value_of(b, place.at, -1) <= (b.is_size ? of_size : at), "part_below", describe);
+    const Rational here = std::max(b.is_size ? of_size : at, Rational(0));
+    if (least < 0 || here < least) least = here;
+  }
+  const Figures f = b.is_size ? figures_of_size(said) : figures_of(said.at);
+  tally.require(Rational(b.mean) <= f.mean_over, "part_below's mean", describe);
+  tally.require(Rational(b.square) <= f.square_over, "part_below's square", describe);
+  tally.require(Rational(b.extreme) <= least, "part_below's least", describe);
+}
+
+}  // namespace
+
+TEST_CASE("parts.h: what all triangles give a part from below") {
+  const uint64_t count = case_count() / 4;
+  Random random(8);
+  Tally tally("below");
+  for (uint64_t i = 0; i < count && !tally.hopeless(); ++i) {
+    const BelowCase c = below_case(random);
+    const Device device(i);
+    const PartAnswer got = below_of(c, device);
+    const auto describe = [&] {
+      std::string text = std::string(device.name()) + ": " + hex(glm::dvec3(c.heights)) +
+                         " slack " + hex(static_cast<double>(c.slack));
+      for (const Taken& e : c.triangles)
+        text += " " + hex(e.over) + " " + hex(e.under) + " " + hex(glm::dvec3(e.at));
+      return text;
+    };
+    check_below(c, got.below, tally, describe);
+    tally.require(
+        Rational(got.shares[0]) >=
+                (got.below.is_size ? exact_share_of_size(values_of(got.below, -1),
+                                                         Rational(got.t) + Rational(got.below.off))
+                                   : exact_share(values_of(got.below, -1), Rational(got.t))) ||
+            got.t < got.below.extreme,
+        "perhaps_within", describe);
+    tally.count("by heights", got.below.is_size);
+    tally.count("by corners", !got.below.is_size);
+    tally.count("with a mean", got.below.mean > 0);
+    tally.count("with a square", got.below.square > 0);
+    tally.count("with a least value", got.below.extreme > 0);
+  }
+  tally.conclude(count);
+  CHECK(tally.counted("by heights") > 0);
+  CHECK(tally.counted("by corners") > 0);
+  CHECK(tally.counted("with a square") > 0);
 }
