@@ -8,10 +8,10 @@ _vkhausdorff() {
     return
   fi
   case $previous in
+    --figures) mapfile -t COMPREPLY < <(compgen -W "hausdorff hd_p hd_p_pooled masd assd rms chamfer_l1 chamfer_l2 normal_consistency nsd precision recall f1 precision_normals recall_normals f1_normals" -- "$current"); return ;;
     --polygons) mapfile -t COMPREPLY < <(compgen -W "fan any" -- "$current"); return ;;
     --bodies) mapfile -t COMPREPLY < <(compgen -W "solid all" -- "$current"); return ;;
     --points) mapfile -t COMPREPLY < <(compgen -W "a b both" -- "$current"); return ;;
-    --figures) mapfile -t COMPREPLY < <(compgen -W "hausdorff hd_p hd_p_pooled masd assd rms chamfer_l1 chamfer_l2 normal_consistency nsd precision recall f1 precision_normals recall_normals f1_normals" -- "$current"); return ;;
     --unit) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --unit-a) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
     --unit-b) mapfile -t COMPREPLY < <(compgen -W "um mm cm m in ft" -- "$current"); return ;;
@@ -25,12 +25,12 @@ _vkhausdorff() {
     --max | --area | --tol | --part | --known-lower | --percentile | --bands | --normals | --max-distance | --field-tol | --effort | --levels | --ratio | --title | --size | --range | --steps | --shard | --together | --lanes | --read-ahead | --max-input | --time | --memory | --waves) return ;;
   esac
   case $command in
-    distance) options="--tol --symmetric --polygons --bodies --points --part --known-lower --stats --signed --bands --max-distance --field-tol --effort --unit --unit-a --unit-b --transform --scale --align --save-transform --field --image --report --title --figures-csv --points-out --certificate --json --verbose --verify --view --up --size --map --range --steps --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
-    gate) options="--max --face-max --face-max-b --area --worst --tol --symmetric --polygons --bodies --points --stats --signed --bands --max-distance --field-tol --effort --unit --unit-a --unit-b --transform --scale --align --save-transform --field --image --report --title --figures-csv --points-out --certificate --junit --github --json --verbose --verify --view --up --size --map --range --steps --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
-    metrics) options="--tol --polygons --bodies --points --percentile --bands --figures --normals --effort --unit --unit-a --unit-b --transform --scale --align --save-transform --json --verbose --verify --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
-    batch) options="--max --tol --symmetric --polygons --bodies --points --signed --metrics --percentile --bands --figures --normals --max-distance --effort --against --allow-unpaired --unit --unit-a --unit-b --transform --scale --align --out --csv --junit --github --image-dir --report-dir --view --up --size --map --range --steps --resume --shard --fail-fast --together --lanes --read-ahead --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    distance) options="--tol --symmetric --part --known-lower --stats --signed --bands --max-distance --field-tol --effort --polygons --bodies --points --unit --unit-a --unit-b --transform --scale --align --save-transform --field --image --report --title --figures-csv --points-out --certificate --json --verbose --verify --view --up --size --map --range --steps --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    gate) options="--max --face-max --face-max-b --area --worst --tol --symmetric --stats --signed --bands --max-distance --field-tol --effort --polygons --bodies --points --unit --unit-a --unit-b --transform --scale --align --save-transform --field --image --report --title --figures-csv --points-out --certificate --junit --github --json --verbose --verify --view --up --size --map --range --steps --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    metrics) options="--tol --percentile --bands --figures --normals --effort --polygons --bodies --points --unit --unit-a --unit-b --transform --scale --align --save-transform --json --verbose --verify --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    batch) options="--max --tol --symmetric --signed --metrics --percentile --bands --figures --normals --max-distance --effort --polygons --bodies --points --unit --unit-a --unit-b --transform --scale --align --out --csv --junit --github --image-dir --report-dir --view --up --size --map --range --steps --against --allow-unpaired --resume --shard --fail-fast --together --lanes --read-ahead --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
     merge) options="--out --csv --junit --list --reproducible --help --help-all" ;;
-    simplify) options="--max --polygons --bodies --one-way --lock-borders --levels --ratio --unit --out --certificate --json --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    simplify) options="--max --one-way --lock-borders --levels --ratio --polygons --bodies --unit --out --certificate --json --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
     demo) options="--tol --symmetric --stats --signed --bands --max-distance --field-tol --effort --field --image --report --title --figures-csv --points-out --json --verbose --verify --view --up --size --map --range --steps --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
     doctor) options="--json --device --help --help-all" ;;
     help) options="$commands" ;;
