@@ -399,7 +399,7 @@ TEST_CASE("switches are echoed, one option or several, before or after the files
   check_interval(r, 0.25);
   const Outcome wrong = run({"distance", a, b, "--preset", "pape"});
   CHECK(wrong.exit_code == 2);
-  CHECK(wrong.err.find("default, paper, baseline-gpu") != std::string::npos);
+  CHECK(wrong.err.find("default, paper or baseline-gpu") != std::string::npos);
 }
 
 TEST_CASE("a budget that is too small: exit code 3 and a true interval") {

@@ -1,10 +1,9 @@
 """Certified Hausdorff distance between triangle meshes, on the GPU (Vulkan)."""
 
-from vkhausdorff import _core
+from vkhausdorff import _core, _keywords
 from vkhausdorff._align import Alignment
 from vkhausdorff._closest import Closest
 from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, align, closest, devices, distance, read, simplify, simplify_levels
-from vkhausdorff._keywords import takes_keywords_of
 from vkhausdorff._many import distances
 from vkhausdorff._metrics import Metrics, metrics
 from vkhausdorff._result import Witness
@@ -17,7 +16,7 @@ __all__ = ["Alignment", "Closest", "Device", "DeviceError", "Field", "Interval",
            "simplify_levels"]
 
 
-@takes_keywords_of(_core.gate)
+@_keywords.takes_keywords_of(_core.gate)
 def gate(a, b, max, **options):
     """Decides whether every point of A is within max of B, proven either way: see the result's verdict.
 
