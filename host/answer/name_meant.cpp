@@ -13,7 +13,8 @@ namespace {
 /// Leaves the letters and digits of a name, in lower case.
 std::string letters_of(const std::string& name) {
   std::string letters;
-  for (const unsigned char c : name) letters += static_cast<char>(std::tolower(c));
+  for (const char c : name)
+    letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::erase_if(letters, [](char c) {
     return std::string_view(" \t_-.()[]:").find(c) != std::string_view::npos;
   });

@@ -84,10 +84,13 @@ const std::vector<std::string>& units() {
 
 std::vector<std::string> figure_names() {
   std::vector<std::string> names;
+  names.reserve(kNamedMetrics.size() + kNamedShares.size());
   for (const NamedMetric& metric : kNamedMetrics) names.emplace_back(metric.name);
   for (const NamedShare& share : kNamedShares) names.emplace_back(share.name);
   return names;
 }
+
+// NOLINTBEGIN(readability-function-size): rows of a table
 
 std::vector<Option> options_of_the_question() {
   const char* const plain = ", or a number alone up to 1e-3, ";
@@ -757,6 +760,8 @@ std::vector<Option> options_of_cost() {
        .uses = {{kSolving, "Neither read nor write compiled pipelines in the user's cache folder"}},
        .unlike = kHost}};
 }
+
+// NOLINTEND(readability-function-size)
 
 std::string with_underscores(std::string name) {
   std::replace(name.begin(), name.end(), '-', '_');

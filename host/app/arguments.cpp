@@ -14,7 +14,8 @@
 namespace vkh {
 namespace {
 
-void check_ending(const char* option, const std::optional<std::string>& path, const char* ending) {
+void check_name_ends(const char* option, const std::optional<std::string>& path,
+                     const char* ending) {
   if (path && !path->ends_with(ending))
     throw UsageError(std::string(option) + " '" + *path + "': expected a name that ends in " +
                      ending);
@@ -24,7 +25,7 @@ void check_simplify(const Request& asked) {
   if (!mesh_format_of(asked.outputs.out))
     throw UsageError("--out '" + asked.outputs.out +
                      "': expected a name that ends in .ply, .obj, .stl or .glb");
-  check_ending("--certificate", asked.outputs.certificate, ".vhc");
+  check_name_ends("--certificate", asked.outputs.certificate, ".vhc");
 }
 
 /// Tells a list, two folders, and meshes against one apart.

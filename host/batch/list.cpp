@@ -39,6 +39,7 @@ std::string Entry::*needed(const std::string& name) {
 /// Returns the column that a name which is none may mean; else nothing.
 std::string meant_by(const std::string& name) {
   std::vector<KnownName> known;
+  known.reserve(kNeeded.size() + options().size());
   for (const NamedColumn& column : kNeeded) known.push_back({.name = column.name});
   for (const Option& option : options()) {
     if (!option.is_column) continue;

@@ -393,7 +393,7 @@ void for_each_keyword(Functions function, const std::vector<std::string>& own, c
 
 }  // namespace
 
-Signature signature_of(Functions function, const char* name, std::vector<std::string> own,
+Signature signature_of(Functions function, const char* name, const std::vector<std::string>& own,
                        size_t required, size_t positional) {
   Signature signature{name, own, required, positional};
   for_each_keyword(function, own,

@@ -11,7 +11,7 @@ namespace vkh::python {
 
 /// The arguments of a function: its own first, and then the keywords that the table has for it,
 /// unless they are among those.
-Signature signature_of(Functions function, const char* name, std::vector<std::string> own,
+Signature signature_of(Functions function, const char* name, const std::vector<std::string>& own,
                        size_t required, size_t positional);
 
 /// The keywords with their defaults, but for `own`, as a signature has them: "tol=1e-6, ...".

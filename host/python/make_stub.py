@@ -60,6 +60,7 @@ KINDS = {
     "percentile": "_Number | str", "angle": "_Number", "size": "SupportsIndex | str", "time": "_Number", "count": "SupportsIndex",
     "file": "_Path", "input": "npt.ArrayLike | _Path", "text": "str | SupportsIndex | Device",
 }
+OF_ONE = {("distances", "device"): "str | SupportsIndex", ("Solver.distance", "points"): 'Union[bool, Literal["a"], None]'}
 NAMES = {"field": "bool | _Number | str", "points": "_Points"}
 
 
@@ -68,8 +69,7 @@ def keyword_line(row: dict, function: str) -> str:
     literals = [*([default.strip('"')] if row["kind"] == "choice" else []), *row["choices"]]
     known = ", ".join(f'"{one}"' for one in dict.fromkeys(literals))
     kind = NAMES.get(name) or KINDS.get(row["kind"]) or f"Literal[{known}]"
-    if name == "device" and function == "distances":
-        kind = "str | SupportsIndex"
+    kind = OF_ONE.get((function, name), kind)
     return f"{name}: {kind}{' | None' if default == 'None' and 'None' not in kind and name not in NAMES else ''} = {default},"
 
 

@@ -25,71 +25,71 @@ std::string documented(const std::string& begin, Functions function,
   return begin + keywords_text(function, own) + ")\n--\n\n" + text;
 }
 
+constexpr const char* kDistanceText =
+    "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
+    "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what "
+    "read()\n"
+    "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
+    "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: "
+    "a\n"
+    "fraction of the diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'.\n"
+    "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as 0,\n"
+    "part of a name or a Device. progress(wave, lower, upper) hears the search alone;\n"
+    "on_progress(fraction, lower, upper) all work: the fraction grows to 1, which comes "
+    "last, "
+    "and\n"
+    "the interval of the answer narrows. Either may return False to cancel. preset: "
+    "'default',\n"
+    "'paper' or 'baseline-gpu'; enable, disable: lists of switches, besides. The interval "
+    "is\n"
+    "true whatever ended the run. TypeError or ValueError for wrong arguments, DeviceError "
+    "for\n"
+    "the device. Ctrl-C ends a run.\n\n"
+    "field: also enclose the largest distance on each face of A (and of B if symmetric), to "
+    "1 %\n"
+    "of the largest, or to so much: a width as tol is. statistics: also enclose the mean "
+    "over\n"
+    "A's area, the root mean square, percentiles and the whole distribution. bands: "
+    "distances "
+    "in\n"
+    "the coordinates' unit, or strings as tol's: also enclose the share of A's area within "
+    "each.\n"
+    "signed: also tell where A is over B, in front of its faces as they are oriented, and "
+    "where\n"
+    "under it; with statistics also the signed mean and percentiles. ValueError where two "
+    "faces\n"
+    "of B are oriented against each other.\n"
+    "effort: the cells of each mesh that these may bound, besides each face once; the same\n"
+    "number gives the same bits on a device. None: 4000000 on a CPU, 10000000 on a GPU.\n"
+    "max_distance: leave out of the statistics what is farther from B, such as a scan's "
+    "strays;\n"
+    "survey.kept is the share that they are of. The distance and verdicts are of all of A.\n"
+    "survey_time: the seconds that they may take of each mesh, besides time; None for no "
+    "limit.\n\n"
+    "certificate: a path that ends in .vhc: also write a proof of the interval, which "
+    "vkh_check\n"
+    "checks for files that have the arrays' faces, in their order. What it proves is in\n"
+    "stats['certificate']; None, and no file, where the run ended before it had an upper "
+    "bound.\n\n"
+    "unit_a, unit_b: what A and B are in, 'um', 'mm', 'cm', 'm', 'in' or 'ft'; where they "
+    "differ, A\n"
+    "is converted to B's unit. transform: a matrix that then places A, four rows of four "
+    "numbers,\n"
+    "the last 0 0 0 1, or the path of a text file that has them; scale=True allows one that\n"
+    "stretches by more than 1e-6. The rounding of both widens the interval. align: then lay "
+    "A "
+    "onto\n"
+    "B as align() does; stats['transform'] has the matrix.\n\n"
+    "points: True or 'a': A is points alone, an array (n, 3), an object that has .vertices "
+    "or\n"
+    ".points and no faces, or the path of such a file; 'b' says so of B, 'both' of both.";
+
 void define_distance(py::module_& m) {
-  m.def(
-      "distance", distance,
-      documented(
-          "distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, progress=None, "
-          "on_progress=None, ",
-          kPyDistance, {"tol", "symmetric"},
-          "Encloses h(A,B), the largest distance of a point of A from B, or with symmetric=True\n"
-          "max(h(A,B), h(B,A)), in a certified interval. distance(a, b) takes two meshes: what "
-          "read()\n"
-          "returns, paths of files, (vertices, faces), or objects with .vertices and .faces.\n\n"
-          "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: "
-          "a\n"
-          "fraction of the diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'.\n"
-          "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as 0,\n"
-          "part of a name or a Device. progress(wave, lower, upper) hears the search alone;\n"
-          "on_progress(fraction, lower, upper) all work: the fraction grows to 1, which comes "
-          "last, "
-          "and\n"
-          "the interval of the answer narrows. Either may return False to cancel. preset: "
-          "'default',\n"
-          "'paper' or 'baseline-gpu'; enable, disable: lists of switches, besides. The interval "
-          "is\n"
-          "true whatever ended the run. TypeError or ValueError for wrong arguments, DeviceError "
-          "for\n"
-          "the device. Ctrl-C ends a run.\n\n"
-          "field: also enclose the largest distance on each face of A (and of B if symmetric), to "
-          "1 %\n"
-          "of the largest, or to so much: a width as tol is. statistics: also enclose the mean "
-          "over\n"
-          "A's area, the root mean square, percentiles and the whole distribution. bands: "
-          "distances "
-          "in\n"
-          "the coordinates' unit, or strings as tol's: also enclose the share of A's area within "
-          "each.\n"
-          "signed: also tell where A is over B, in front of its faces as they are oriented, and "
-          "where\n"
-          "under it; with statistics also the signed mean and percentiles. ValueError where two "
-          "faces\n"
-          "of B are oriented against each other.\n"
-          "effort: the cells of each mesh that these may bound, besides each face once; the same\n"
-          "number gives the same bits on a device. None: 4000000 on a CPU, 10000000 on a GPU.\n"
-          "max_distance: leave out of the statistics what is farther from B, such as a scan's "
-          "strays;\n"
-          "survey.kept is the share that they are of. The distance and verdicts are of all of A.\n"
-          "survey_time: the seconds that they may take of each mesh, besides time; None for no "
-          "limit.\n\n"
-          "certificate: a path that ends in .vhc: also write a proof of the interval, which "
-          "vkh_check\n"
-          "checks for files that have the arrays' faces, in their order. What it proves is in\n"
-          "stats['certificate']; None, and no file, where the run ended before it had an upper "
-          "bound.\n\n"
-          "unit_a, unit_b: what A and B are in, 'um', 'mm', 'cm', 'm', 'in' or 'ft'; where they "
-          "differ, A\n"
-          "is converted to B's unit. transform: a matrix that then places A, four rows of four "
-          "numbers,\n"
-          "the last 0 0 0 1, or the path of a text file that has them; scale=True allows one that\n"
-          "stretches by more than 1e-6. The rounding of both widens the interval. align: then lay "
-          "A "
-          "onto\n"
-          "B as align() does; stats['transform'] has the matrix.\n\n"
-          "points: True or 'a': A is points alone, an array (n, 3), an object that has .vertices "
-          "or\n"
-          ".points and no faces, or the path of such a file; 'b' says so of B, 'both' of both.")
-          .c_str());
+  m.def("distance", distance,
+        documented("distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, progress=None, "
+                   "on_progress=None, ",
+                   kPyDistance, {"tol", "symmetric"}, kDistanceText)
+            .c_str());
 }
 
 py::list devices() {
@@ -131,26 +131,34 @@ void define_metrics(py::module_& m) {
 }
 
 void define_simplify(py::module_& m) {
-  m.def("simplify", simplified,
-        "simplify(a, max, *, one_way=False, lock_borders=False, float32=False, time=None, "
-        "device='')\n--\n\n"
-        "A mesh of fewer faces that is proven to be within max of A, both ways: a Simplified.\n\n"
-        "a: a mesh, as gate() takes it; max: a positive number in the coordinates' unit, or a\n"
-        "string such as '0.1%' of A's diagonal. one_way: limits the points of A alone.\n"
-        "lock_borders: keeps each vertex of an edge that only one face has. float32: the vertices\n"
-        "are float32, and judged so. time: seconds for the search; what passed by then is\n"
-        "returned, and TimeoutError says that nothing did. The distance alone is proven, neither\n"
-        "that the result is watertight nor how its faces are turned.");
-  m.def("simplify_levels", simplified_levels,
-        "simplify_levels(a, max, *, levels=5, ratio=0.5, one_way=False, lock_borders=False,\n"
-        "                float32=False, time=None, device='')\n--\n\n"
-        "A chain of ever coarser meshes, each with its proven distance from A itself: a list of\n"
-        "Simplified, the finest first.\n\n"
-        "levels: how many at most; ratio: the share of faces from one to the next, the first\n"
-        "having so many of A's. The chain ends before a level that is not proven to be within max\n"
-        "of A, and is empty where the first is not. The other arguments are those of simplify();\n"
-        "complete is False on the last level where time ended the chain, and TimeoutError says\n"
-        "that there was none by then.");
+  m.def(
+      "simplify", simplified,
+      documented(
+          "simplify(a, max, *, float32=False, ", kPySimplify, {"max"},
+          "A mesh of fewer faces that is proven to be within max of A, both ways: a Simplified.\n\n"
+          "a: a mesh, as gate() takes it; max: a positive number in the coordinates' unit, or a\n"
+          "string such as '0.1%' of A's diagonal. one_way: limits the points of A alone.\n"
+          "lock_borders: keeps each vertex of an edge that only one face has. float32: the "
+          "vertices\n"
+          "are float32, and judged so. time: seconds for the search; what passed by then is\n"
+          "returned, and TimeoutError says that nothing did. The distance alone is proven, "
+          "neither\n"
+          "that the result is watertight nor how its faces are turned.")
+          .c_str());
+  m.def(
+      "simplify_levels", simplified_levels,
+      documented(
+          "simplify_levels(a, max, *, levels=5, ratio=0.5, float32=False, ", kPySimplify, {"max"},
+          "A chain of ever coarser meshes, each with its proven distance from A itself: a list of\n"
+          "Simplified, the finest first.\n\n"
+          "levels: how many at most; ratio: the share of faces from one to the next, the first\n"
+          "having so many of A's. The chain ends before a level that is not proven to be within "
+          "max\n"
+          "of A, and is empty where the first is not. The other arguments are those of "
+          "simplify();\n"
+          "complete is False on the last level where time ended the chain, and TimeoutError says\n"
+          "that there was none by then.")
+          .c_str());
 }
 
 void define_align(py::module_& m) {
