@@ -395,18 +395,22 @@ void define_mesh(py::module_& m) {
         "delta.");
   m.def(
       "read", read,
-      "read(path, *, max_input=None, polygons='refuse', bodies='solid', points=False)\n--\n\n"
-      "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
-      "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
-      "a file never passes for the whole. max_input: bytes, or '100M': a larger file is refused,\n"
-      "and one whose mesh takes more, 24 bytes a vertex and 12 a face. polygons: 'fan' measures\n"
-      "the fan of a polygon whose outline crosses itself or encloses no area; else it is refused.\n"
-      "bodies: 'all' measures everything as it lies, also modifiers, negative volumes, what is "
-      "not\n"
-      "printed, and hidden nodes; 'solid' what is printed as body, or shown. points: the file has\n"
-      "no faces and is points alone: PLY, OBJ, OFF, XYZ, PTS or LAS; or path is an array (n, 3) "
-      "of\n"
-      "them. A file with faces is refused then.");
+      ("read(path, *, points=False, " + keywords_text(kPyRead, {"points"}) +
+       ")\n--\n\n"
+       "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
+       "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
+       "a file never passes for the whole. max_input: bytes, or '100M': a larger file is refused,\n"
+       "and one whose mesh takes more, 24 bytes a vertex and 12 a face. polygons: 'fan' measures\n"
+       "the fan of a polygon whose outline crosses itself or encloses no area; else it is "
+       "refused.\n"
+       "bodies: 'all' measures everything as it lies, also modifiers, negative volumes, what is "
+       "not\n"
+       "printed, and hidden nodes; 'solid' what is printed as body, or shown. points: the file "
+       "has\n"
+       "no faces and is points alone: PLY, OBJ, OFF, XYZ, PTS or LAS; or path is an array (n, 3) "
+       "of\n"
+       "them. A file with faces is refused then.")
+          .c_str());
 }
 
 void raise(const FileFault& fault) {
