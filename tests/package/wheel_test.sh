@@ -26,7 +26,7 @@ case $(basename "$wheel") in
   *) fail "$wheel is not named for this version, Python and machine" ;;
 esac
 "$python" -m zipfile -l "$wheel" | awk 'NR > 1 {print $1}' | grep -v '\.dist-info/' | sed -E 's/_core\..*\.so$/_core.so/' | sort >"$folder/files"
-printf 'vkhausdorff/%s\n' __init__.py __init__.pyi _align.py _closest.py _core.so _many.py _masks.py _meshes.py _metrics.py _result.py _simplify.py _survey.py dask.py py.typed | diff - "$folder/files" || fail "the wheel has other files (>)"
+printf 'vkhausdorff/%s\n' __init__.py __init__.pyi _align.py _closest.py _core.so _keywords.py _many.py _masks.py _meshes.py _metrics.py _result.py _simplify.py _survey.py dask.py py.typed | diff - "$folder/files" || fail "the wheel has other files (>)"
 
 step "$python" -m venv --system-site-packages "$folder/venv"
 new=$folder/venv/bin/python
