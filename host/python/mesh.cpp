@@ -348,6 +348,21 @@ auto of_mesh(Get get) {
 
 py::object mesh_object(MeshPointer mesh) { return py::cast(FileMesh{std::move(mesh)}); }
 
+constexpr const char* kReadText =
+    "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
+    "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
+    "a file never passes for the whole. max_input: bytes, or '100M': a larger file is refused,\n"
+    "and one whose mesh takes more, 24 bytes a vertex and 12 a face. polygons: 'fan' measures\n"
+    "the fan of a polygon whose outline crosses itself or encloses no area; else it is "
+    "refused.\n"
+    "bodies: 'all' measures everything as it lies, also modifiers, negative volumes, what is "
+    "not\n"
+    "printed, and hidden nodes; 'solid' what is printed as body, or shown. points: the file "
+    "has\n"
+    "no faces and is points alone: PLY, OBJ, OFF, XYZ, PTS or LAS; or path is an array (n, 3) "
+    "of\n"
+    "them. A file with faces is refused then.";
+
 void define_mesh(py::module_& m) {
   py::class_<FileMesh>(m, "Mesh",
                        "A mesh file as it was read. It goes wherever a mesh is expected, and is "
@@ -393,24 +408,10 @@ void define_mesh(py::module_& m) {
   m.def("_surface", surface_of,
         "_surface(vertices, faces, delta): the Mesh of rounded coordinates, each off by up to "
         "delta.");
-  m.def(
-      "read", read,
-      ("read(path, *, points=False, " + keywords_text(kPyRead, {"points"}) +
-       ")\n--\n\n"
-       "The Mesh of a file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF, told by its content. OSError\n"
-       "where it cannot be opened, ValueError with file and place where it is wrong. A part of\n"
-       "a file never passes for the whole. max_input: bytes, or '100M': a larger file is refused,\n"
-       "and one whose mesh takes more, 24 bytes a vertex and 12 a face. polygons: 'fan' measures\n"
-       "the fan of a polygon whose outline crosses itself or encloses no area; else it is "
-       "refused.\n"
-       "bodies: 'all' measures everything as it lies, also modifiers, negative volumes, what is "
-       "not\n"
-       "printed, and hidden nodes; 'solid' what is printed as body, or shown. points: the file "
-       "has\n"
-       "no faces and is points alone: PLY, OBJ, OFF, XYZ, PTS or LAS; or path is an array (n, 3) "
-       "of\n"
-       "them. A file with faces is refused then.")
-          .c_str());
+  m.def("read", read,
+        ("read(path, *, points=False, " + keywords_text(kPyRead, {"points"}) + ")\n--\n\n" +
+         kReadText)
+            .c_str());
 }
 
 void raise(const FileFault& fault) {
