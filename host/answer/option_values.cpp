@@ -50,6 +50,18 @@ Length length_of(const Option& option, const Given& given, const std::string& te
                       is_tolerance ? PlainNumber::kSmallFraction : PlainNumber::kRefused);
 }
 
+std::vector<Length> lengths_of(const Option& option, const Given& given) {
+  std::vector<Length> lengths;
+  lengths.reserve(given.texts.size());
+  for (const std::string& text : given.texts) lengths.push_back(length_of(option, given, text));
+  return lengths;
+}
+
+std::vector<std::string> names_of(const Option& option, const Given& given) {
+  for (const std::string& name : given.texts) check_choice(option, given, name);
+  return {given.texts.begin(), given.texts.end()};
+}
+
 uint64_t whole_of(const Option& option, const Given& given) {
   const std::string& text = given.text();
   if (option.kind == Kind::kSize) return parse_size(given.said.c_str(), text);
@@ -84,40 +96,29 @@ double number_of(const Option& option, const Given& given) {
       "a number from " + shortest_decimal(option.least) + " to " + shortest_decimal(option.most));
 }
 
-/// Puts a text in a member, by the member's type and the option's kind.
-struct Put {
+/// Reads what was given, by the member's type and the option's kind.
+struct TextReader {
   const Option& option;
   const Given& given;
-  Request& asked;
 
   template <class T>
   T value() const {
-    if constexpr (std::is_same_v<T, bool>) return truth_of(given);
-    if constexpr (std::is_same_v<T, std::string>) return text_of(option, given);
-    if constexpr (std::is_same_v<T, Length>) return length_of(option, given, given.text());
-    if constexpr (std::is_same_v<T, double>) return number_of(option, given);
-    if constexpr (std::is_same_v<T, PartOf>) return parse_part(given.said.c_str(), given.text());
-    if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+    if constexpr (std::is_same_v<T, bool>)
+      return truth_of(given);
+    else if constexpr (std::is_same_v<T, std::string>)
+      return text_of(option, given);
+    else if constexpr (std::is_same_v<T, Length>)
+      return length_of(option, given, given.text());
+    else if constexpr (std::is_same_v<T, double>)
+      return number_of(option, given);
+    else if constexpr (std::is_same_v<T, PartOf>)
+      return parse_part(given.said.c_str(), given.text());
+    else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+      return names_of(option, given);
+    else if constexpr (std::is_same_v<T, std::vector<Length>>)
+      return lengths_of(option, given);
+    else
       return static_cast<T>(whole_of(option, given));
-  }
-
-  void operator()(const Own& own) const { own.put(given, asked); }
-  template <class T>
-  void operator()(Member<T> member) const {
-    member(asked) = value<T>();
-  }
-  template <class T>
-  void operator()(Member<std::optional<T>> member) const {
-    member(asked) = value<T>();
-  }
-  void operator()(Member<std::vector<std::string>> member) const {
-    for (const std::string& name : given.texts) check_choice(option, given, name);
-    member(asked).assign(given.texts.begin(), given.texts.end());
-  }
-  void operator()(Member<std::vector<Length>> member) const {
-    member(asked).clear();
-    for (const std::string& text : given.texts)
-      member(asked).push_back(length_of(option, given, text));
   }
 };
 
@@ -183,7 +184,8 @@ void check_truth(const std::string& said, const std::string& text) {
 
 void put(const Option& option, const Given& given, Request& asked) {
   if (option.kind == Kind::kChoice) check_choice(option, given, given.text());
-  std::visit(Put{option, given, asked}, option.target);
+  if (const Own* own = std::get_if<Own>(&option.target)) own->put(given, asked);
+  fill(option, asked, TextReader{option, given});
   if (option.kind == Kind::kFlag && option.shape[0] == '\0' && !truth_of(given)) {
     asked.given.erase(option.name);
   } else {
@@ -191,13 +193,13 @@ void put(const Option& option, const Given& given, Request& asked) {
   }
 }
 
-std::string key_text(const Request& asked) {
-  Request own = asked, none;
+std::string key_text(Request asked) {
+  Request none;
   std::string text;
   for (const Option& option : options()) {
     const bool is_of_pairs = option.is_column || use_of(option, kBatch) != nullptr;
     if (!is_of_pairs || *option.unlike != '\0') continue;
-    const std::string value = value_text(option, own);
+    const std::string value = value_text(option, asked);
     if (value != value_text(option, none)) text += std::string("\n") + option.name + ' ' + value;
   }
   return text;

@@ -14,7 +14,7 @@ constexpr uint64_t kEffortOfMetrics = 1'000'000;
 
 /// "a, b or c", with `last` between the last two.
 std::string joined(const std::vector<std::string>& names, const char* last);
-/// What a count may be, for messages: "a whole number of cells from 0 to 100".
+/// The values that a count may have, for messages: "a whole number of cells from 0 to 100".
 std::string whole_number(const Option& option);
 
 /// Throws InputError for a text that is neither true nor false.

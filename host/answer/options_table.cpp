@@ -47,10 +47,6 @@ ManyRequest& part_of<ManyRequest>(Request& asked) {
   return asked.many;
 }
 template <>
-StreamOptions& part_of<StreamOptions>(Request& asked) {
-  return asked.many.devices;
-}
-template <>
 SimplifyRequest& part_of<SimplifyRequest>(Request& asked) {
   return asked.simplify;
 }
@@ -647,7 +643,7 @@ std::vector<Option> options_of_many() {
       {.name = "together",
        .kind = Kind::kCount,
        .group = Group::kMany,
-       .target = to<&StreamOptions::together>,
+       .target = to<&ManyRequest::together>,
        .uses = {{kBatch, "Pairs side by side on a device [16 on a GPU, 1 on a CPU]"}},
        .functions = kPyMany,
        .noun = "pairs",
@@ -657,7 +653,7 @@ std::vector<Option> options_of_many() {
       {.name = "lanes",
        .kind = Kind::kCount,
        .group = Group::kMany,
-       .target = to<&StreamOptions::lanes>,
+       .target = to<&ManyRequest::lanes>,
        .uses = {{kBatch, "Groups of them at a time on a device [3 on a GPU, 1 on a CPU]"}},
        .functions = kPyMany,
        .noun = "groups",

@@ -3,9 +3,11 @@
 // completions and the package's signatures are made from it by tools/options.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -124,11 +126,34 @@ inline bool is_within(const Option& option, double number) {
   return number >= option.least && number <= option.most;
 }
 
+template <class T>
+struct Unwrapped {
+  using Type = T;
+};
+template <class T>
+struct Unwrapped<std::optional<T>> {
+  using Type = T;
+};
+
+/// Fills in the option's member with the value that `read` returns for the member's type, which is
+/// never an optional. Options with a rule of their own have no such member, and are left alone.
+template <class Read>
+void fill(const Option& option, Request& asked, const Read& read) {
+  const auto put_in = [&]<class T>(Member<T> member) {
+    member(asked) = read.template value<typename Unwrapped<T>::Type>();
+  };
+  std::visit(
+      [&](const auto& target) {
+        if constexpr (!std::is_same_v<decltype(target), const Own&>) put_in(target);
+      },
+      option.target);
+}
+
 /// Puts what was given in its place. Throws UsageError that names the option, the text and the
 /// expected form.
 void put(const Option& option, const Given& given, Request& asked);
 
 /// All that a pair's answer depends on: a line for each option whose value is not that of none.
-std::string key_text(const Request& asked);
+std::string key_text(Request asked);
 
 }  // namespace vkh

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "vkhausdorff/question.h"
-#include "vkhausdorff/stream.h"
 
 namespace vkh {
 
@@ -42,7 +41,7 @@ struct Outputs {
   bool has_pictures() const { return shows_cells() || certificate; }
 };
 
-/// What many pairs have besides the question about each.
+/// The options of many pairs, besides the question about each.
 struct ManyRequest {
   std::vector<std::string> files;  ///< as they were named: a list, folders, meshes or results
   std::string against;             ///< one B for each of `files`; empty: they name pairs
@@ -51,12 +50,12 @@ struct ManyRequest {
   std::optional<std::string> image_folder, report_folder;
   PartOf shard;
   bool resumes = false, fails_fast = false;
-  bool reproducible = false;  ///< leaves out what differs between two runs
-  StreamOptions devices;      ///< the options that Question does not have
+  bool reproducible = false;         ///< leaves out what differs between two runs
+  uint64_t together = 0, lanes = 0;  ///< StreamOptions' of these names; 0: what pays
   uint64_t read_ahead_bytes = 0;
 };
 
-/// What `simplify` has besides the question about its mesh.
+/// The options of `simplify`, besides the question about its mesh.
 struct SimplifyRequest {
   bool one_way = false, lock_borders = false;
   uint64_t levels = 0;  ///< 0: one mesh, as few faces as are found

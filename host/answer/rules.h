@@ -1,4 +1,4 @@
-// What options mean together: the combinations that are refused, and what some imply.
+// Options together: the combinations that are refused, and what some options imply.
 #pragma once
 
 #include <functional>

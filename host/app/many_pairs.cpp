@@ -119,6 +119,7 @@ BatchJob batch_of(const Request& request, PairList& list) {
   const Question& question = request.question;
   BatchJob batch;
   batch.asked = request;
+  batch.asked.many = {};  // each pair has a copy of the request, and no need of the others' names
   batch.asked.question.max_distance.reset();  // it is of what is drawn
   batch.shared = shared_files(list.entries);
   for (Entry& entry : list.entries) {
@@ -128,7 +129,8 @@ BatchJob batch_of(const Request& request, PairList& list) {
   batch.results = request.outputs.out;
   batch.resumes = asked.resumes;
   batch.fails_fast = asked.fails_fast;
-  batch.devices = asked.devices;
+  batch.devices.together = asked.together;
+  batch.devices.lanes = asked.lanes;
   batch.devices.devices = selectors_of(question.device);
   if (question.caches) batch.devices.cache_folder = user_cache_folder();
   batch.devices.first = question.options;

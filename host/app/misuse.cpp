@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "host/answer/option_values.h"
 #include "host/base/closest_name.h"
 #include "host/base/meant.h"
 
@@ -43,13 +44,6 @@ Words command_names(const CLI::App& program) {
   Words names;
   for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
   return names;
-}
-
-std::string listed(const Words& words, const char* last) {
-  std::string text;
-  for (size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? last : ", ") + words[i];
-  return text;
 }
 
 std::string hint_without_blank(const std::string& option, const std::string& given,
@@ -124,7 +118,7 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error,
   if (&command == &program && !words.empty() && !words[0].starts_with('-')) {
     const Words names = command_names(program);
     const std::string meant = name_meant(words[0], names);
-    return "unknown command '" + words[0] + "': expected " + listed(names, " or ") +
+    return "unknown command '" + words[0] + "': expected " + joined(names, " or ") +
            (meant.empty() ? "" : "; did you mean " + meant + "?");
   }
   const Words options = option_names(command);
@@ -134,7 +128,7 @@ std::string usage_message(const CLI::App& program, const CLI::ParseError& error,
     if (!name.starts_with("--") || name == "--" || is_known) continue;
     if (std::string hint = gone_hint(name); !hint.empty()) return hint;
     if (const Words others = commands_with(program, name); !others.empty())
-      return "unknown option '" + name + "': it is of " + listed(others, " and ");
+      return "unknown option '" + name + "': it is of " + joined(others, " and ");
     const std::string meant = name_meant(name, options);
     return "unknown option '" + name + "'" +
            (meant.empty() ? see_help(command) : ": did you mean " + meant + "?");

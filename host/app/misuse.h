@@ -1,4 +1,4 @@
-// What a command line that is none may have meant.
+// Messages about a wrong command line, with what it may have meant.
 #pragma once
 
 #include <string>

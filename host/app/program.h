@@ -11,7 +11,7 @@
 
 namespace vkh {
 
-/// What was typed for an option.
+/// An option of a command, and the text that was typed for it.
 struct TypedOption {
   CLI::Option* option = nullptr;
   bool flag = false;

@@ -15,7 +15,7 @@ struct Entry {
   std::string id;
   std::string a, b;            ///< the names in the list, for people
   std::string file_a, file_b;  ///< the paths that open from here
-  /// What its row asks for itself: an option, and its text.
+  /// The options that its row has for itself, each with its text.
   std::vector<std::pair<const Option*, std::string>> options;
   /// The error of a file without a partner; empty: there is a pair.
   std::string missing = {};

@@ -37,11 +37,11 @@ std::string hashes_in_text(const Input& input) {
 }
 
 // Hashes all that an answer depends on, except for the device.
-std::string key_of(const Request& asked, const Answer& known, bool shares_b) {
+std::string key_of(Request asked, const Answer& known, bool shares_b) {
   std::string text = program_version();
   for (const Input& input : known.inputs) text += '\n' + hashes_in_text(input);
   text += shares_b ? "\nprepared" : "";
-  return sha256_of_text(text + key_text(asked));
+  return sha256_of_text(text + key_text(std::move(asked)));
 }
 
 /// Puts what a row asks for itself in place of the batch's.
@@ -115,7 +115,7 @@ NamedEntry EntryReader::name(const Entry& entry) {
     named.known.inputs[i].files = std::move(hashes.files);
     if (!is_shared) named.file_bytes += hashes.bytes;
   }
-  named.name = {entry.id, key_of(asked, named.known, shares_b)};
+  named.name = {entry.id, key_of(std::move(asked), named.known, shares_b)};
   return named;
 }
 

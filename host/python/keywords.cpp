@@ -258,11 +258,15 @@ void read_transform(const Value& value, Question& question) {
   }
 }
 
-void read_polygons(const Value& value, ReadLimits& limits) {
+/// Reads a choice that the program knows by a rule of its own. The default, such as 'refuse', may
+/// be none of the program's choices.
+void read_choice(const char* name, const Value& value, Request& asked) {
+  const Option& option = *option_of(name);
   const std::string text = value.text();
-  if (text == "fan") limits.odd_polygons = OddPolygons::kFanned;
-  limits.any_triangulation = text == "any";
-  if (!text.empty() && text != "fan" && text != "any" && text != "refuse") value.refuse();
+  if (text.empty() || "'" + text + "'" == option.none) return;
+  const std::vector<std::string>& known = option.choices;
+  if (std::find(known.begin(), known.end(), text) == known.end()) value.refuse();
+  put(option, {value.name, std::span(&text, 1)}, asked);
 }
 
 struct OwnRow {
@@ -293,14 +297,10 @@ const OwnRow* own_row(std::string_view name) {
       {"polygons",
        "'refuse', 'fan' for the fan of what has no triangulation, or 'any' for all triangulations",
        [](const Value& value, Functions, Request& asked) {
-         read_polygons(value, asked.question.limits);
+         read_choice("polygons", value, asked);
        }},
       {"bodies", "'solid', or 'all' for everything as it lies",
-       [](const Value& value, Functions, Request& asked) {
-         const std::string text = value.text();
-         if (text != "solid" && text != "all" && !text.empty()) value.refuse();
-         asked.question.limits.bodies = text == "all" ? Bodies::kAll : Bodies::kSolid;
-       }},
+       [](const Value& value, Functions, Request& asked) { read_choice("bodies", value, asked); }},
       {"transform", "", [](const Value& value, Functions, Request& asked) {
          read_transform(value, asked.question);
        }}};
@@ -309,42 +309,35 @@ const OwnRow* own_row(std::string_view name) {
   return found == std::end(rows) ? nullptr : found;
 }
 
-/// Puts a value in a member, by the member's type and the option's kind.
-struct Put {
+/// Reads a keyword's value, by the member's type and the option's kind.
+struct ValueReader {
   const Option& option;
   const Arguments& all;
-  const Value& value;
-  Request& asked;
+  const Value& given;
 
   template <class T>
-  T read() const {
-    if constexpr (std::is_same_v<T, bool>) return all.flag(value.name);
-    if constexpr (std::is_same_v<T, std::string>) return checked_text(option, value);
-    if constexpr (std::is_same_v<T, Length>) {
-      const bool is_tolerance = option.kind == Kind::kTolerance;
-      return length_from(value, is_tolerance ? Length::Of::kDiagonal : Length::Of::kFiles);
-    }
-    if constexpr (std::is_same_v<T, double>) return number_of(option, value);
-    if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
-      return static_cast<T>(whole_of(option, all, value));
-    if constexpr (std::is_same_v<T, PartOf>) value.refuse();
+  T value() const {
+    const bool is_tolerance = option.kind == Kind::kTolerance;
+    if constexpr (std::is_same_v<T, bool>)
+      return all.flag(given.name);
+    else if constexpr (std::is_same_v<T, std::string>)
+      return checked_text(option, given);
+    else if constexpr (std::is_same_v<T, Length>)
+      return length_from(given, is_tolerance ? Length::Of::kDiagonal : Length::Of::kFiles);
+    else if constexpr (std::is_same_v<T, double>)
+      return number_of(option, given);
+    else if constexpr (std::is_same_v<T, PartOf>)
+      given.refuse();  // no keyword is a part
+    else if constexpr (std::is_same_v<T, std::vector<std::string>>)
+      return all.texts(given.name);
+    else if constexpr (std::is_same_v<T, std::vector<Length>>)
+      return lengths_from(given);
+    else
+      return static_cast<T>(whole_of(option, all, given));
   }
-  void operator()(const Own& /*own_row() has them*/) const { value.refuse(); }
-  template <class T>
-  void operator()(Member<T> member) const {
-    member(asked) = read<T>();
-  }
-  template <class T>
-  void operator()(Member<std::optional<T>> member) const {
-    member(asked) = read<T>();
-  }
-  void operator()(Member<std::vector<std::string>> member) const {
-    member(asked) = all.texts(value.name);
-  }
-  void operator()(Member<std::vector<Length>> member) const { member(asked) = lengths_from(value); }
 };
 
-/// What a keyword may be, as its messages say.
+/// The values that a keyword may have, as its messages say.
 std::string expected_of(const Option& option, Functions function) {
   const OwnRow* own = own_row(option.name);
   if (own != nullptr && *own->expected != '\0') return own->expected;
@@ -367,7 +360,7 @@ void read(const Option& option, Functions function, const Arguments& all, Reques
   if (own != nullptr) {
     own->read(value, function, asked);
   } else {
-    std::visit(Put{option, all, value, asked}, option.target);
+    fill(option, asked, ValueReader{option, all, value});
   }
   const bool is_off = option.kind == Kind::kFlag && !py::cast<bool>(*given);
   if (!is_off) asked.given.insert(option.name);

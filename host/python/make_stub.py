@@ -54,7 +54,7 @@ def class_text(module: pathlib.Path, name: str) -> str:
     return "\n".join([f"class {name}({bases}):" if bases else f"class {name}:", *first, *members])
 
 
-# Of keywords, by their kind; "| None" is added where None is the default.
+# Types of keywords by their kind; "| None" is added where None is the default.
 KINDS = {
     "flag": "bool", "tolerance": "_Number | str", "length": "_Number | str", "lengths": "_Bands", "names": "_Names", "share": "_Number | str",
     "percentile": "_Number | str", "angle": "_Number", "size": "SupportsIndex | str", "time": "_Number", "count": "SupportsIndex",

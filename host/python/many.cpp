@@ -56,7 +56,8 @@ FlowQuestion asked_from(const Arguments& given) {
   Request request = request_of(kPyMany, "distances", given);
   asked.question = std::move(request.question);
   asked.ahead = ahead_of(given);
-  asked.devices = std::move(request.many.devices);
+  asked.devices.together = request.many.together;
+  asked.devices.lanes = request.many.lanes;
   asked.devices.devices = given.devices(kSelectors);
   if (is_given(given, "against"))
     asked.against =

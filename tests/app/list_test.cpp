@@ -24,7 +24,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-/// What an entry's row asks for an option; nothing: what the batch does.
+/// The text that an entry's row has for an option; empty: the batch decides.
 std::string asked(const Entry& entry, const std::string& column) {
   for (const auto& [option, text] : entry.options) {
     if (column_name(*option) == column) return text;

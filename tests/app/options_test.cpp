@@ -55,7 +55,7 @@ std::vector<std::string> samples_of(const Option& option) {
   return {};
 }
 
-/// What a command line of a batch asks, before its rules.
+/// The request of a batch's command line, before its rules.
 Request typed(const std::vector<std::string>& more) {
   std::vector<std::string> words{"batch", "list.csv", "--out", "out.jsonl"};
   words.insert(words.end(), more.begin(), more.end());

@@ -1,5 +1,5 @@
-// What a test program keeps from its first use to its end, and what it asks there. main.cpp needs
-// no device for it.
+// Objects that a test program keeps from their first use to its end, and the checks that it makes
+// there. main.cpp needs no device for them.
 #pragma once
 
 #include <cstdint>
