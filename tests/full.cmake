@@ -22,13 +22,25 @@ if(NOT VKH_SANITIZE)
                  kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address doctor
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
                  proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
-                 python_life python_fork python_lost python_distances python_distances_life)
+                 python_life python_fork python_lost python_distances python_distances_life python_meshes python_metrics
+                 metrics solver_oracle_test)
   # A minute and more each: the same kernels with more cases, compiled for another card or system, and
   # the examples of clusters.
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
                     proven_placing batch_killed clang_all driver_lavapipe128_more platform_arm64 platform_libcxx
                      platform_arm64_more platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
                      slurm dask clusters points_many golden)
+  # A program of its own whose one test is not a default one is built by vkh_full.
+  foreach(source IN LISTS VKH_TEST_SOURCES)
+    get_filename_component(name ${source} NAME_WE)
+    get_property(labels TEST ${name} PROPERTY LABELS)
+    if(VKH_PROGRAM_${name} STREQUAL name AND labels MATCHES "full|nightly")
+      set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+      add_dependencies(vkh_full ${name})
+    endif()
+  endforeach()
+  set_target_properties(VkLayer_vkh_test PROPERTIES EXCLUDE_FROM_ALL ON)
+  add_dependencies(vkh_full VkLayer_vkh_test)
   return()
 endif()
 

@@ -106,7 +106,7 @@ TEST_CASE("the demo's part comes back, and its coarser twin lies as it did") {
 
 TEST_CASE("noise moves the place by much less than itself") {
   constexpr double kNoise = 0.01;
-  const Mesh mesh = lump(5);
+  const Mesh mesh = lump(4);
   Random random(3);
   for (size_t i = 0; i < kPoses; ++i) {
     const Mesh posed = in_any_pose(noisy(mesh, kNoise, i), random, 10);
