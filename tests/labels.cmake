@@ -29,7 +29,7 @@ foreach(test IN LISTS all)
     vkh_folder(verification ${test})
   endif()
 endforeach()
-vkh_folder(files malformed_files bodies)
+vkh_folder(files malformed_files bodies files_by_program)
 vkh_folder(engine shader_contract embed_shaders float_places report_glsl api_c11 compile_amd)
 vkh_folder(solve metrics_long placed_limits_long)
 vkh_folder(app schema batch batch_folders batch_killed pair_schema many_pairs exit_codes folder_pairs simplify_program doctor

@@ -127,7 +127,7 @@ TEST_CASE("every malformed file is refused or read whole, as its case says") {
 
 // A refusal by the program: exit code 4, and one line that names the file. This runs one file in
 // twelve.
-TEST_CASE("the program refuses malformed files in one line") {
+TEST_CASE("the program refuses malformed files in one line" * doctest::test_suite("program")) {
   const std::vector<Case> cases = corpus();
   size_t refused = 0;
   for (size_t i = 0; i < cases.size(); i += 12) {

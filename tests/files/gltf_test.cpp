@@ -591,7 +591,7 @@ TEST_CASE("what a buffer takes is held against the limit") {
                        InputError);
 }
 
-TEST_CASE("the answer carries delta and unit") {
+TEST_CASE("the answer carries delta and unit" * doctest::test_suite("program")) {
   Document document = triangle_document();
   const std::string a = write_file("a.glb", document.glb());
   document.json["nodes"][0]["translation"] = {0.1, 0.1, 0.1};

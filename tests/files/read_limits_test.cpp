@@ -141,7 +141,7 @@ TEST_CASE("reading is called off before the file, and in the midst of it") {
   CHECK(asked == 2);
 }
 
-TEST_CASE("the program takes --max-input") {
+TEST_CASE("the program takes --max-input" * doctest::test_suite("program")) {
   const TemporaryFile file(files()[0].bytes);
   const auto refused =
       test::run({"distance", file.path.string(), file.path.string(), "--max-input", "32"});

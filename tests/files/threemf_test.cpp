@@ -68,7 +68,8 @@ TEST_CASE("an object in the build, its decimals as doubles") {
   CHECK(mesh.unit == "mm");
 }
 
-TEST_CASE("A is converted to B's unit where both files say theirs") {
+TEST_CASE("A is converted to B's unit where both files say theirs" *
+          doctest::test_suite("program")) {
   const std::string inches = package_of(model_of(kOne, item("1"), "unit=\"inch\""));
   const std::string a = write_file("a.3mf", package_of(model_of(kOne, item("1")))),
                     b = write_file("b.3mf", inches);
