@@ -181,14 +181,13 @@ std::vector<Solver*> solvers_of(const Session& session) {
 }
 
 std::future<Session> begin_opening(const Question& question) {
-  SolveOptions options = question.options;
+  EngineOptions engine = question.engine;
   // With a limit, pipelines for cells are made once it is decided.
   const bool apart = question.max && !question.area;
-  if (question.asks_for_cells() && !apart)
-    options.survey = [](const SurveyedPair&, const BoundCells&) {};
-  return begin_now([selector = question.device, several = question.several_devices, options,
+  engine.cells = question.asks_for_cells() && !apart;
+  return begin_now([selector = question.device, several = question.several_devices, engine,
                     cache = question.caches ? user_cache_folder() : std::filesystem::path()] {
-    return open_session(selector, several, options, cache);
+    return open_session(selector, several, engine, cache);
   });
 }
 

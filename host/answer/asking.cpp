@@ -44,7 +44,7 @@ struct Asking::State {
 
   double left_s() const {
     const std::chrono::duration<double> spent = Clock::now() - start;
-    return question.options.time_limit_s - spent.count();
+    return question.budget.time_limit_s - spent.count();
   }
   Observer observer() {
     return {.goes_on = [this] { return !stop.stop_requested() && left_s() > 0; },

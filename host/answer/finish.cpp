@@ -6,9 +6,9 @@
 
 #include "host/answer/steps.h"
 #include "host/base/decimal.h"
-#include "host/solve/cells.h"
 #include "host/survey/distribution.h"
 #include "host/survey/map_shares.h"
+#include "host/survey/survey_with.h"
 #include "vkhausdorff/certificate.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/note.h"
@@ -44,7 +44,7 @@ struct Finishing {
 };
 
 double survey_time(const Finishing& at, size_t left) {
-  if (at.question.survey_time_s) return *at.question.survey_time_s;
+  if (at.question.budget.survey_time_s) return *at.question.budget.survey_time_s;
   const double time = at.observer.time_left_s();
   if (!std::isfinite(time)) return time;
   return kPartOfTime * std::max(time, 0.0) / static_cast<double>(left);
@@ -140,11 +140,11 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
   }
   options.map = map_options(at);
   options.time_limit_s = survey_time(at, left);
-  if (question.effort) options.effort = *question.effort;
+  if (question.budget.effort) options.effort = *question.budget.effort;
   const bool on_cpu = at.solver.device().description().type == "cpu";
   SideCount heard{.back = side.back,
                   .faces = side.from.faces.size(),
-                  .effort = question.effort.value_or(default_effort(on_cpu))};
+                  .effort = question.budget.effort.value_or(default_effort(on_cpu))};
   options.goes_on = [&observer = at.observer, heard](size_t cells) mutable {
     heard.count = cells;
     if (observer.cells) observer.cells(heard);
@@ -192,8 +192,8 @@ SurveyResult survey_of(const Finishing& at, const Side& side, const SurveyOption
   SolveOptions run = at.options;
   run.progress = [&](const Progress&) { return at.observer.is_to_go_on(); };
   try {
-    at.solver.with_cells({.a = side.from, .b = side.to, .prepared = side.prepared}, run,
-                         survey_with(options, result));
+    with_cells(at.solver, {.a = side.from, .b = side.to, .prepared = side.prepared}, run,
+               survey_with(options, result));
   } catch (const std::bad_alloc&) {
     result.ended = SurveyEnd::kMemory;
     note(at, NoteCode::kSurvey, std::string("there was no memory to survey ") + side.name);

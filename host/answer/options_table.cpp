@@ -27,8 +27,12 @@ ReadLimits& part_of<ReadLimits>(Request& asked) {
   return asked.question.limits;
 }
 template <>
-SolveOptions& part_of<SolveOptions>(Request& asked) {
-  return asked.question.options;
+Budget& part_of<Budget>(Request& asked) {
+  return asked.question.budget;
+}
+template <>
+EngineOptions& part_of<EngineOptions>(Request& asked) {
+  return asked.question.engine;
 }
 template <>
 MetricsOptions& part_of<MetricsOptions>(Request& asked) {
@@ -270,7 +274,7 @@ std::vector<Option> options_of_the_question() {
       {.name = "effort",
        .kind = Kind::kCount,
        .group = Group::kQuestion,
-       .target = to<&Question::effort>,
+       .target = to<&Budget::effort>,
        .uses = {{kPair | kDemo, effort + "]"},
                 {kBatch, effort + "; with --metrics " + std::to_string(kEffortOfMetrics) + "]"}},
        .few = kMetrics,
@@ -697,7 +701,7 @@ std::vector<Option> options_of_cost() {
       {.name = "time",
        .kind = Kind::kTime,
        .group = Group::kCost,
-       .target = to<&Request::time_limit_s>,
+       .target = to<&Budget::time_limit_s>,
        .uses = {{kPair | kSimplify | kDemo,
                  "Answer after so long, from the program's start: 250ms, 10s, 2min [no limit]"},
                 {kBatch, "End a pair's run after so long: 250ms, 10s, 2min [no limit]"}},
@@ -706,20 +710,20 @@ std::vector<Option> options_of_cost() {
       {.name = "survey-time",
        .kind = Kind::kTime,
        .group = Group::kCost,
-       .target = to<&Question::survey_time_s>,
+       .target = to<&Budget::survey_time_s>,
        .uses = {},  // the program has one limit for all work
        .functions = kPySolving},
       {.name = "memory",
        .kind = Kind::kSize,
        .group = Group::kCost,
-       .target = to<&SolveOptions::memory_bytes>,
+       .target = to<&Budget::memory_bytes>,
        .uses = {{kSolving,
                  "Device memory for the search, such as 512MiB or 2G [chosen from the meshes]"}},
        .functions = kPySolving},
       {.name = "waves",
        .kind = Kind::kCount,
        .group = Group::kCost,
-       .target = to<&SolveOptions::wave_limit>,
+       .target = to<&Budget::wave_limit>,
        .uses = {{kSolving, "End the search after so many waves [no limit]"}},
        .functions = kPySolving,
        .noun = "waves",
@@ -727,7 +731,7 @@ std::vector<Option> options_of_cost() {
       {.name = "preset",
        .kind = Kind::kChoice,
        .group = Group::kCost,
-       .target = to<&SolveOptions::preset>,
+       .target = to<&EngineOptions::preset>,
        .uses = {{kSolving,
                  "Which parts of the method are on: default, what pays on the device; paper, what "
                  "the paper has; baseline-gpu, the paper's baseline [default]"}},
@@ -738,14 +742,14 @@ std::vector<Option> options_of_cost() {
       {.name = "enable",
        .kind = Kind::kNames,
        .group = Group::kCost,
-       .target = to<&SolveOptions::enabled>,
+       .target = to<&EngineOptions::enabled>,
        .uses = {{kSolving, "Switch on parts that the preset has not, by name: u4,sort"}},
        .functions = kPySolving,
        .choices = switch_names()},
       {.name = "disable",
        .kind = Kind::kNames,
        .group = Group::kCost,
-       .target = to<&SolveOptions::disabled>,
+       .target = to<&EngineOptions::disabled>,
        .uses = {{kSolving, "Switch off parts of the method, by name: a,b"}},
        .functions = kPySolving,
        .choices = switch_names()},

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <set>
 #include <string>
@@ -67,7 +66,6 @@ struct Request {
   Question question;
   bool metrics = false;  ///< Question::metrics is wanted, with these
   MetricsOptions metric_options;
-  double time_limit_s = std::numeric_limits<double>::infinity();
   Outputs outputs;
   ManyRequest many;
   SimplifyRequest simplify;

@@ -222,8 +222,7 @@ void complete_batch(Request& asked) {
   Question& question = asked.question;
   if (!asked.has("tol")) question.tolerance = default_tolerance(question.max.has_value());
   question.statistics = question.is_signed;  // a line of results has figures
-  question.options.time_limit_s = asked.time_limit_s;
-  if (asked.metrics && !question.effort) question.effort = kEffortOfMetrics;
+  if (asked.metrics && !question.budget.effort) question.budget.effort = kEffortOfMetrics;
 }
 
 }  // namespace

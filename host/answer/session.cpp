@@ -10,12 +10,12 @@
 namespace vkh {
 namespace {
 
-Opened open_one(const std::string& selector, const SolveOptions& options,
+Opened open_one(const std::string& selector, const EngineOptions& engine,
                 const std::filesystem::path& cache_folder) {
   Opened one;
   one.device = std::make_unique<Device>(DeviceRequest{.selector = selector});
   one.solver = std::make_unique<Solver>(*one.device, cache_folder);
-  one.solver->make_ready(options);
+  one.solver->make_ready(engine);
   return one;
 }
 
@@ -56,15 +56,14 @@ std::vector<std::string> selectors_of(const std::string& text) {
   return selectors;
 }
 
-Session open_session(const std::string& selector, bool several, const SolveOptions& options,
+Session open_session(const std::string& selector, bool several, const EngineOptions& engine,
                      const std::filesystem::path& cache_folder) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::string> selectors =
       several ? selectors_of(selector) : std::vector<std::string>{selector};
   std::vector<Opened> opened(selectors.size());
   for_each_index(
-      selectors.size(),
-      [&](size_t i) { opened[i] = open_one(selectors[i], options, cache_folder); },
+      selectors.size(), [&](size_t i) { opened[i] = open_one(selectors[i], engine, cache_folder); },
       selectors.size());
   Session session;
   session.device = std::move(opened[0].device);

@@ -29,7 +29,7 @@ std::vector<std::string> selectors_of(const std::string& text);
 
 /// Throws what Device and Solver throw. `selector`: DeviceRequest::selector, or a text for
 /// selectors_of(), if `several` may be asked for. `cache_folder`: see Solver.
-Session open_session(const std::string& selector, bool several, const SolveOptions& options,
+Session open_session(const std::string& selector, bool several, const EngineOptions& engine,
                      const std::filesystem::path& cache_folder);
 
 }  // namespace vkh

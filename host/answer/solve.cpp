@@ -23,8 +23,7 @@ SolveOptions heard_options(const Question& question, const Observer& observer,
   SolveOptions options = solve_options(question, answer);
   if (observer.left_s) options.time_limit_s = std::max(observer.left_s(), kLeastTime);
   options.progress = observer.search;
-  // Uses the pipelines that a survey needs, so that it needs no others.
-  if (question.asks_for_cells()) options.survey = [](const SurveyedPair&, const BoundCells&) {};
+  options.engine.cells = question.asks_for_cells();
   return options;
 }
 
@@ -172,7 +171,7 @@ void solve(const Question& question, std::span<Solver* const> solvers, const Ask
   if (observer.found) observer.found(answer);
   if (goes_on_to_worst(question, observer, answer))
     find_worst(question, solvers, meshes, observer, answer);
-  add_memory_notes(question.options.memory_bytes, answer);
+  add_memory_notes(question.budget.memory_bytes, answer);
   if (observer.found) observer.found(answer);
 }
 

@@ -422,14 +422,21 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   return farthest;
 }
 
+SolveOptions run_options(const Question& question) {
+  return {.time_limit_s = question.budget.time_limit_s,
+          .wave_limit = question.budget.wave_limit,
+          .memory_bytes = question.budget.memory_bytes,
+          .engine = question.engine};
+}
+
 SolveOptions solve_options(const Question& question, const Answer& known) {
-  SolveOptions options = question.options;
+  SolveOptions options = run_options(question);
   options.tolerance_is_absolute = question.tolerance.of != Length::Of::kDiagonal;
   options.tolerance =
       options.tolerance_is_absolute ? known.a_to_b.tolerance : question.tolerance.number;
   // The survey decides a question about area.
   if (known.max && !known.max->area) options.limit = known.max->limit;
-  options.coverage = question.verify;
+  options.engine.coverage = question.verify;
   // The surveys bound each distance: a search would narrow the largest one alone.
   if (question.metrics && !question.metrics->asks_for({"hausdorff"}))
     options.wave_limit = std::min(options.wave_limit, 1u);
@@ -444,7 +451,7 @@ SolveOptions solve_options(const Question& question, const Answer& known) {
 void take_reports(const Question& question, StreamResult&& result, Answer& answer) {
   answer.a_to_b = std::move(result.a_to_b);
   answer.b_to_a = std::move(result.b_to_a);
-  add_memory_notes(question.options.memory_bytes, answer);
+  add_memory_notes(question.budget.memory_bytes, answer);
   answer.waits.total = answer.waits.read + answer.a_to_b.times.wall_ms +
                        (answer.b_to_a ? answer.b_to_a->times.wall_ms : 0);
 }

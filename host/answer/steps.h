@@ -77,6 +77,9 @@ double take_meshes(const Question& question, const ReadMesh& a, const ReadMesh& 
 /// names --range for ends that are reversed, or cannot be converted.
 Enclosure range_in_files(const std::array<Length, 2>& range, const Answer& answer);
 
+/// What a question has for each of its runs, whatever the meshes are.
+SolveOptions run_options(const Question& question);
+
 /// The options for an interval as narrow as such an answer needs. `known` has its meshes.
 SolveOptions solve_options(const Question& question, const Answer& known);
 

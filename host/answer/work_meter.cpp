@@ -20,7 +20,7 @@ WorkMeter::WorkMeter(const Question& question, const Answer& known)
       surveys_(question.asks_for_survey() ? directions_ : 0),
       proofs_(question.certificate ? directions_ : 0),
       is_by_face_(question.is_by_face()),
-      wave_limit_(question.options.wave_limit),
+      wave_limit_(question.budget.wave_limit),
       farthest_(known.a_to_b.upper),
       tolerance_(known.a_to_b.tolerance) {
   known_.fill({0, farthest_});

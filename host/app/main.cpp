@@ -169,7 +169,7 @@ int run(const Words& words, Clock::time_point start) {
   if (asked.command == kDoctor) return run_doctor(asked);
   if (asked.command == kMerge) return printed(run_merge_command(asked));
   note_interrupts();
-  const Stop stop(start, asked.time_limit_s);
+  const Stop stop(start, asked.question.budget.time_limit_s);
   if (asked.command == kBatch) return printed(run_batch_command(asked));
   if (asked.command == kSimplify) return printed(run_simplify_command(asked, stop));
   return run_pair(asked, words, stop);

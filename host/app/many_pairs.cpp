@@ -133,7 +133,7 @@ BatchJob batch_of(const Request& request, PairList& list) {
   batch.devices.lanes = asked.lanes;
   batch.devices.devices = selectors_of(question.device);
   if (question.caches) batch.devices.cache_folder = user_cache_folder();
-  batch.devices.first = question.options;
+  batch.devices.first = question.engine;
   batch.read_ahead_bytes = asked.read_ahead_bytes;
   return batch;
 }

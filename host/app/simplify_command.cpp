@@ -9,6 +9,7 @@
 #include "host/answer/progress_line.h"
 #include "host/answer/session.h"
 #include "host/answer/simplified.h"
+#include "host/answer/steps.h"
 #include "host/app/outputs.h"
 #include "host/base/begin_now.h"
 #include "host/base/output_file.h"
@@ -115,9 +116,9 @@ SimplifyPlaces SimplifyCommand::places() const {
 /// Opens the device beside reading.
 void SimplifyCommand::read() {
   auto opening =
-      begin_now([selector = question_.device, options = question_.options,
+      begin_now([selector = question_.device, engine = question_.engine,
                  cache = question_.caches ? user_cache_folder() : std::filesystem::path()] {
-        return open_session(selector, false, options, cache);
+        return open_session(selector, false, engine, cache);
       });
   ReadLimits limits = question_.limits;
   limits.keep_going = [this] { return !stop_.is_asked(); };
@@ -155,7 +156,7 @@ SimplifyOptions SimplifyCommand::options() {
   options.lock_borders = answer_.lock_borders = asked_.lock_borders;
   options.rounds_to_float = !holds_doubles(*mesh_format_of(outputs_.out));
   options.time_limit_s = stop_.left_s();
-  options.solve = question_.options;
+  options.solve = run_options(question_);
   options.goes_on = [] { return !is_interrupted(); };
   options.progress = [this](const SimplifyProgress& progress) {
     line_.show([&] {
@@ -200,7 +201,7 @@ Written SimplifyCommand::write(const Mesh& mesh, const OutputFile& place, const 
 
 void SimplifyCommand::prove_it(const Written& written, const OutputFile& place) {
   const Deviation& d = written.file.deviation;
-  const SolveOptions& run = question_.options;
+  const SolveOptions run = run_options(question_);
   const auto goes_on = [](size_t) { return !is_interrupted(); };
   const Proof there = prove(*session_.solver, {a_, written.mesh, d.a_to_b, run, goes_on});
   std::optional<Proof> back;

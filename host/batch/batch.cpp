@@ -11,7 +11,7 @@
 #include "host/base/float_environment.h"
 #include "host/base/output_file.h"
 #include "host/base/parallel.h"
-#include "host/solve/budget.h"
+#include "host/solve/byte_budget.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -273,7 +273,7 @@ class Batch {
   // survey, too.
   void survey(Solver& solver, const Running& one, Answer& answer) {
     const Clock::time_point start = Clock::now();
-    const double limit_s = one.entry.question.options.time_limit_s;
+    const double limit_s = one.entry.question.budget.time_limit_s;
     const double spent_s = (answer.waits.total - answer.waits.read) / 1000;
     const Observer observer{.goes_on = [this] { return goes_on(); },
                             .left_s = [=] { return limit_s - spent_s - seconds_since(start); }};
@@ -383,7 +383,7 @@ class Batch {
   const Clock::time_point start_ = Clock::now();
   Clock::time_point first_ = start_;  // the end of the first pair of this run
   LineFile file_;
-  Budget budget_;
+  ByteBudget budget_;
   EntryReader reader_;
   ProgressLine line_;
   std::unordered_map<std::string, Older> older_;

@@ -50,7 +50,7 @@ std::string reason_of(const std::exception_ptr& error) {
 BatchFolders::BatchFolders(const Request& asked, const std::vector<Entry>& entries,
                            const std::vector<std::string>& taken)
     : style_(style_of(asked.outputs.look)),
-      effort_(asked.question.effort),
+      effort_(asked.question.budget.effort),
       max_distance_(asked.question.max_distance) {
   const auto& [images, reports] = std::tie(asked.many.image_folder, asked.many.report_folder);
   if (images) images_.emplace("--image-dir", *images, ".png");
@@ -91,7 +91,7 @@ void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
 void BatchFolders::ask(Question& question) const {
   ask_for(style_, question);
   question.statistics = question.statistics || reports_.has_value();
-  if (effort_) question.effort = effort_;
+  if (effort_) question.budget.effort = effort_;
   if (!max_distance_) return;
   if (question.asks_for_sides())
     throw UsageError("--max-distance: leaves out of figures and pictures without sides alone");
@@ -105,7 +105,7 @@ void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
     Question question = entry.question;
     ask(question);
     const Observer observer{.goes_on = pair.goes_on,
-                            .left_s = [&] { return question.options.time_limit_s; }};
+                            .left_s = [&] { return question.budget.time_limit_s; }};
     finish(question, pair.solver, {*pair.meshes.a, *pair.meshes.b}, observer, answer);
   }
   if (!pair.goes_on()) return;

@@ -410,13 +410,12 @@ Request request_of(Functions function, const char* command, const Arguments& giv
   asked.metrics = function == kPyMetrics;
   Question& question = asked.question;
   question.command = command;
-  question.survey_time_s = std::numeric_limits<double>::infinity();
+  question.budget.survey_time_s = std::numeric_limits<double>::infinity();
   for_each_keyword(function, {"device"},
                    [&](const Option& option) { read(option, function, given, asked); });
   if (!asked.has("tol")) question.tolerance = default_tolerance(question.max.has_value());
   check_together(asked, named);
   complete(asked, named);
-  question.options.time_limit_s = asked.time_limit_s;
   return asked;
 }
 

@@ -140,7 +140,7 @@ class Listener {
   bool goes_on() {
     if (!is_cancelled_) ours_.outside(hear_signals);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-    const bool is_late = is_proving_ && spent.count() >= given_.question.options.time_limit_s;
+    const bool is_late = is_proving_ && spent.count() >= given_.question.budget.time_limit_s;
     return !is_cancelled_ && !is_late;
   }
   void tell() {
@@ -265,7 +265,7 @@ SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
   options.one_way = asked.simplify.one_way;
   options.lock_borders = asked.simplify.lock_borders;
   options.rounds_to_float = given.flag("float32");
-  options.time_limit_s = question.options.time_limit_s;
+  options.time_limit_s = question.budget.time_limit_s;
   options.goes_on = [] { return goes_on(0); };
   return options;
 }

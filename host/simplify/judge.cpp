@@ -36,7 +36,7 @@ SolveOptions Judge::run_options() const {
   constexpr double kLeastTime = 1e-3;  // a run wants some
   SolveOptions run = options_.solve;
   run.tolerance_is_absolute = true;
-  run.stage_times = false;
+  run.engine.stage_times = false;
   run.time_limit_s = std::max(deadline_.left_s(), kLeastTime);
   run.progress = [this](const Progress&) { return goes_on(); };
   return run;

@@ -1,11 +1,12 @@
 // Cells of A, for surveys, and single points: a device bounds them beside a run.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "shaders/gpu_types.h"
 #include "vkhausdorff/frame.h"
-#include "vkhausdorff/solve_options.h"
+#include "vkhausdorff/mesh.h"
 
 namespace vkh {
 
@@ -33,5 +34,9 @@ struct SurveyedPair {
   double farthest;      ///< the run's upper bound: no distance is larger, in the files' units
   bool on_cpu;          ///< batches should be small
 };
+
+/// Bounds cells of A; blocks until it is done.
+using BoundCells = std::function<void(const CellBatch&)>;
+using Survey = std::function<void(const SurveyedPair&, const BoundCells&)>;
 
 }  // namespace vkh

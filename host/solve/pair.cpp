@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "host/base/rounding.h"
+#include "host/solve/run_hooks.h"
 #include "host/solve/switches.h"
 
 namespace vkh {
@@ -51,10 +52,10 @@ float known_in_frame(const Pair& pair, double known_lower) {
   return known > 0 ? std::nextafter(static_cast<float>(known), 0.0f) : 0.0f;
 }
 
-// `pair` and `options` live as long as the run.
-std::function<float()> known_since(const Pair& pair, const SolveOptions& options) {
-  if (!options.known_since) return {};
-  return [&pair, &options] { return known_in_frame(pair, options.known_since()); };
+// `pair` lives as long as the run.
+std::function<float()> known_since(const Pair& pair) {
+  if (pair.hooks == nullptr || !pair.hooks->known_since) return {};
+  return [&pair] { return known_in_frame(pair, pair.hooks->known_since()); };
 }
 
 }  // namespace
@@ -83,22 +84,22 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) 
   asked.knownLower = known_in_frame(pair, options.known_lower);
   asked.limit = limit_in_frame(pair, options.limit.within);
   asked.limitUp = limit_up_in_frame(pair, options.limit.beyond);
-  asked.sortFrom = options.sort_from;
+  asked.sortFrom = options.engine.sort_from;
   asked.twoFloat = two_float ? VK_TRUE : VK_FALSE;
   return {.a = {&pair.a, &pair.stored_a},
           .b = {&pair.b, pair.stored_b},
           .resident = pair.resident,
           .switches = switches & ~kSwitchMultiwave,
           .memory_bytes = options.memory_bytes,
-          .start_memory_bytes = options.start_memory_bytes,
+          .start_memory_bytes = options.engine.start_memory_bytes,
           .wave_limit = options.wave_limit,
           .multiwave = (switches & kSwitchMultiwave) != 0,
           .options = asked,
-          .stage_times = options.stage_times,
-          .coverage = options.coverage,
+          .stage_times = options.engine.stage_times,
+          .coverage = options.engine.coverage,
           .survey = {},
           .advanced = {},
-          .known_since = known_since(pair, options)};
+          .known_since = known_since(pair)};
 }
 
 namespace {
@@ -109,7 +110,7 @@ SolveOptions coarser(const Pair& pair) {
   const double unit = pair.options.tolerance_is_absolute ? diagonal(pair.box_a) : 1;
   SolveOptions coarse = pair.options;
   coarse.tolerance = std::max(coarse.tolerance, kCoarse * unit);
-  coarse.subroots = coarse.subroots || pair.options.tolerance < kFineTolerance * unit;
+  coarse.engine.fine = coarse.engine.fine || pair.options.tolerance < kFineTolerance * unit;
   return coarse;
 }
 

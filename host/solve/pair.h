@@ -11,6 +11,8 @@
 
 namespace vkh {
 
+struct RunHooks;
+
 /// A run's meshes as they are stored in one frame, and what is asked about them. Proof that any
 /// frame will do: the device
 /// encloses the stored meshes' h in the frame's units, whatever the frame, for coordinates up to
@@ -27,6 +29,7 @@ struct Pair {
   bool has_low;         // of either mesh
   Box box_a, joint;
   SolveOptions options = {};
+  const RunHooks* hooks = nullptr;
   size_t number = 0;  // Progress::pair
 };
 

@@ -77,7 +77,7 @@ SolveOptions options_of_part(const SolveOptions& options, const Diagonal& of_a) 
   SolveOptions out = options;
   const double tolerance = multiply_down(options.tolerance, of_a.least());
   if (options.tolerance_is_absolute || !(tolerance > 0)) return out;  // nor is it of a part
-  out.subroots = options.subroots || options.tolerance < kFineTolerance;
+  out.engine.fine = options.engine.fine || options.tolerance < kFineTolerance;
   out.tolerance = tolerance;
   out.tolerance_is_absolute = true;
   return out;

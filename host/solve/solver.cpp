@@ -14,6 +14,7 @@
 #include "host/solve/coverage.h"
 #include "host/solve/pair.h"
 #include "host/solve/run.h"
+#include "host/solve/run_hooks.h"
 #include "host/solve/run_report.h"
 #include "host/solve/switches.h"
 #include "host/solve/way_back.h"
@@ -55,7 +56,8 @@ Status status_of(const VkhReport& r, const Report& out, Status ended) {
 struct Solver::Impl {
   Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
   std::vector<Report> distances(std::span<const PairView> meshes,
-                                const std::vector<SolveOptions>& options);
+                                const std::vector<SolveOptions>& options,
+                                const RunHooks* hooks = nullptr);
   std::vector<Report> solve_with_switches(const std::vector<Pair>& pairs, uint32_t switches,
                                           Clock::time_point start);
   std::vector<Report> solve(const std::vector<Pair>& pairs, Clock::time_point start);
@@ -151,12 +153,13 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   out.place_b = {pair.b.delta, pair.b.unit};
   out.workspace_bytes = run.workspace_bytes;
   out.host_memory_bytes = run.host_memory_bytes;
-  out.preset = options.preset.empty() ? "default" : options.preset;
+  out.preset = options.engine.preset.empty() ? "default" : options.engine.preset;
   fill_counts(run, pair.frame, out);
   fill_stages(run, out);
   fill_witness(run.report, pair.a, pair.b, out);
   // Before every face of A has a bound, `upper` is 3e38.
-  if (options.coverage) out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
+  if (options.engine.coverage)
+    out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
   return out;
 }
 
@@ -195,10 +198,10 @@ std::vector<Report> Solver::Impl::solve_with_switches(const std::vector<Pair>& p
     watches.push_back({.pair = pair, .diagonal_a = diagonal(pair.box_a), .start = start});
     inputs.push_back(input_for(pair, switches, tolerance_of(pair)));
     inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
-    if (pair.options.survey) {
+    if (pair.hooks != nullptr && pair.hooks->survey) {
       const bool on_cpu = device.description().type == "cpu";
       inputs.back().survey = [&, on_cpu](const VkhReport& report, const BoundCells& bound) {
-        pair.options.survey(surveyed(pair, report, on_cpu), bound);
+        pair.hooks->survey(surveyed(pair, report, on_cpu), bound);
       };
     }
   }
@@ -238,10 +241,9 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::t
   return reports;
 }
 
-void Solver::make_ready(const SolveOptions& options) {
+void Solver::make_ready(const EngineOptions& options) {
   const FloatEnvironment ours;
-  // It is not known yet whether an absolute tolerance is fine.
-  impl_->runner.make_ready(switches_for(options, 0, impl_->device) & ~kSwitchMultiwave);
+  impl_->runner.make_ready(switches_of(options, impl_->device) & ~kSwitchMultiwave);
 }
 
 namespace {
@@ -275,7 +277,8 @@ Framed framed_alone(const PairView& m) {
 }  // namespace
 
 std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
-                                            const std::vector<SolveOptions>& options) {
+                                            const std::vector<SolveOptions>& options,
+                                            const RunHooks* hooks) {
   const auto start = Clock::now();
   check_meshes(meshes);
   std::vector<Framed> framed(meshes.size());
@@ -312,6 +315,7 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
                      .box_a = f.pair.box_a,
                      .joint = join(f.pair.box_a, f.pair.box_b),
                      .options = options[i],
+                     .hooks = hooks,
                      .number = i});
   }
   // Pairs without a limit are solved once; see pair.h.
@@ -451,17 +455,25 @@ SymmetricReport Solver::symmetric(const Mesh& a, const Mesh& b, const SolveOptio
   return std::move(symmetrics({&pair, 1}, options)[0]);
 }
 
-void Solver::with_cells(const PairView& pair, const SolveOptions& options, const Survey& use) {
+Report distance_with(Solver& solver, const PairView& pair, const SolveOptions& options,
+                     const RunHooks& hooks) {
+  FloatEnvironment ours;
+  const std::span<const PairView> alone(&pair, 1);
+  std::vector<SolveOptions> run = options_of(alone, options, ours);
+  run[0].engine.cells = run[0].engine.cells || hooks.survey;
+  return std::move(solver.impl_->distances(alone, run, &hooks)[0]);
+}
+
+void with_cells(Solver& solver, const PairView& pair, const SolveOptions& options,
+                const Survey& use) {
   SolveOptions run = options;
   run.limit = {};
   run.known_lower = 0;
-  run.known_since = {};
-  run.coverage = false;
+  run.engine.coverage = false;
   run.wave_limit = 1;
   run.time_limit_s = std::numeric_limits<double>::infinity();
-  run.survey = use;
   const PairView alone{.a = pair.a, .b = pair.b, .prepared = pair.prepared};
-  distances({&alone, 1}, run);
+  distance_with(solver, alone, run, {.survey = use});
 }
 
 }  // namespace vkh

@@ -60,20 +60,21 @@ std::vector<std::string> switch_names() {
 
 std::vector<std::string> preset_names() { return {"default", "paper", "baseline-gpu"}; }
 
-uint32_t switches_of(const SolveOptions& options, const Device& device) {
+uint32_t switches_of(const EngineOptions& options, const Device& device) {
   uint32_t on = preset_bits(options.preset, device);
   for (const std::string& name : options.enabled) on |= switch_bit(name);
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
   if (options.coverage) on |= VKH_CONTEXT_COVERAGE;
-  if (options.survey) on |= VKH_CONTEXT_CELLS;
+  if (options.cells) on |= VKH_CONTEXT_CELLS;
+  if (options.fine) on |= VKH_CONTEXT_FINE;
   return options.certified ? on : on | VKH_SWITCH_UNCERTIFIED;
 }
 
 uint32_t switches_for(const SolveOptions& options, double diagonal_a, const Device& device) {
   const double coarse =
       options.tolerance_is_absolute ? kFineTolerance * diagonal_a : kFineTolerance;
-  const bool is_fine = options.subroots || options.tolerance < coarse;
-  return switches_of(options, device) | (is_fine ? uint32_t{VKH_CONTEXT_FINE} : 0);
+  const bool is_fine = options.tolerance < coarse;
+  return switches_of(options.engine, device) | (is_fine ? uint32_t{VKH_CONTEXT_FINE} : 0);
 }
 
 SwitchStates switch_states(uint32_t switches) {

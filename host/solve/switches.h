@@ -28,7 +28,7 @@ uint32_t default_switches(const Device& device);
 
 /// The VkhSwitchBits and VkhContextFlagBits that are on, kSwitchWide and kSwitchMultiwave. Throws
 /// UsageError for an unknown name.
-uint32_t switches_of(const SolveOptions& options, const Device& device);
+uint32_t switches_of(const EngineOptions& options, const Device& device);
 
 /// A fraction of A's diagonal. A sample is within 2^-20 of a face's edge of the farthest point:
 /// half of that.

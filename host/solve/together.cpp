@@ -17,6 +17,7 @@
 #include "host/base/rounding.h"
 #include "host/solve/join_reports.h"
 #include "host/solve/part.h"
+#include "host/solve/run_hooks.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/frame.h"
 
@@ -100,13 +101,17 @@ class Together {
 
   void attempt(size_t device, size_t number) {
     try {
+      const RunHooks hooks{.known_since = [this, number] {
+        const std::lock_guard lock(mutex_);
+        return known_to(number);
+      }};
       const auto alone = [&](const Mesh& a, const Mesh& b, const SolveOptions& options) {
-        return solvers_[device]->distance(a, b, options);
+        return distance_with(*solvers_[device], {a, b}, options, hooks);
       };
       Report r = distance_of_part(alone, a_, parts_[number].ranges, b_, options_for(number));
       const std::lock_guard lock(mutex_);
       PartState& part = parts_[number];
-      if (options_.certified) part.proven = std::max(part.proven, r.lower);
+      if (options_.engine.certified) part.proven = std::max(part.proven, r.lower);
       if (options_.limit.beyond > 0 && r.lower > options_.limit.beyond) is_over_ = true;
       part.report = part.report ? narrowed(*part.report, std::move(r)) : std::move(r);
       part.device = device;
@@ -135,10 +140,6 @@ class Together {
     out.time_limit_s = std::max(options_.time_limit_s - elapsed_s(), kLeastTime);
     const std::lock_guard lock(mutex_);
     out.known_lower = known_to(number);
-    out.known_since = [this, number] {
-      const std::lock_guard asking(mutex_);
-      return known_to(number);
-    };
     out.progress = [this, number](const Progress& progress) { return advance(number, progress); };
     return out;
   }
@@ -157,7 +158,7 @@ class Together {
     const std::lock_guard lock(mutex_);
     PartState& part = parts_[number];
     part.last = progress;
-    if (options_.certified) part.proven = std::max(part.proven, progress.lower);
+    if (options_.engine.certified) part.proven = std::max(part.proven, progress.lower);
     is_over_ = is_over_ || error_;
     if (!is_over_ && options_.progress) is_over_ = !listen();
     return !is_over_;

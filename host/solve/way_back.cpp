@@ -18,7 +18,7 @@ SolveOptions options_back(const SolveOptions& options, const Report& there, doub
   SolveOptions back = options;
   back.tolerance = there.tolerance;  // 0 where A is one point
   back.tolerance_is_absolute = true;
-  back.subroots = there.tolerance < kFineTolerance * there.diagonal_a || options.subroots;
+  back.engine.fine = there.tolerance < kFineTolerance * there.diagonal_a || options.engine.fine;
   back.time_limit_s = std::max(options.time_limit_s - elapsed_s, kLeastTime);
   back.known_lower = std::max(options.known_lower, there.lower);
   const bool cancelled = there.status == Status::kCancelled;

@@ -78,7 +78,7 @@ void Worker::solve_all(Group& group) {
   for (size_t i = 0; i < group.size(); ++i) {
     const WaitingPair& one = group[i];
     options.push_back(one.pair.options);
-    options.back().stage_times = false;
+    options.back().engine.stage_times = false;
     options.back().progress = [this, &pair = one.pair](Progress p) {
       p.pair = pair.number;
       return !share_.is_cancelled && (!pair.options.progress || pair.options.progress(p));

@@ -12,7 +12,7 @@
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/same_faces.h"
-#include "host/solve/cells.h"
+#include "host/solve/run_hooks.h"
 #include "host/survey/cell_corners.h"
 #include "host/survey/proof_tree.h"
 
@@ -338,10 +338,10 @@ Proof prove(Solver& solver, const ProofJob& job) {
   Proof proof;
   SolveOptions options = job.options;
   options.progress = {};
-  solver.with_cells({.a = job.a, .b = job.b}, options,
-                    [&](const SurveyedPair& pair, const BoundCells& bound) {
-                      Prover(pair, bound, job, proof).prove();
-                    });
+  with_cells(solver, {.a = job.a, .b = job.b}, options,
+             [&](const SurveyedPair& pair, const BoundCells& bound) {
+               Prover(pair, bound, job, proof).prove();
+             });
   return proof;
 }
 

@@ -14,8 +14,8 @@
 #include "host/survey/point_distances.h"
 #include "host/survey/pooled.h"
 #include "host/survey/signed_figures.h"
+#include "host/survey/survey_with.h"
 #include "vkhausdorff/error.h"
-#include "vkhausdorff/solver.h"
 
 namespace vkh {
 namespace {
@@ -347,7 +347,7 @@ Field field_within(size_t face_count, double upper) {
 SurveyResult survey_mesh(Solver& solver, const PairView& pair, const SurveyOptions& options,
                          const SolveOptions& run) {
   SurveyResult result;
-  solver.with_cells(pair, run, survey_with(options, result));
+  with_cells(solver, pair, run, survey_with(options, result));
   return result;
 }
 

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "host/answer/session.h"
-#include "host/solve/budget.h"
+#include "host/solve/byte_budget.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
@@ -118,7 +118,7 @@ TEST_CASE("an error is the pair's own, and ends nothing") {
   options.together = 18;
   PairStream stream(options, sink.deliver());
   for (StreamPair& pair : pairs()) {
-    if (pair.number % 7 == 3) pair.options.enabled = {"no such switch"};
+    if (pair.number % 7 == 3) pair.options.engine.enabled = {"no such switch"};
     if (pair.number % 7 == 4) pair.options.tolerance = -1;
     stream.push(std::move(pair));
   }
@@ -209,7 +209,7 @@ TEST_CASE("devices that are not there, or named twice, are said") {
 }
 
 TEST_CASE("a budget is never exceeded, but by one that is larger than all of it") {
-  Budget budget(100);
+  ByteBudget budget(100);
   std::vector<std::thread> threads;
   std::atomic<uint64_t> taken = 0, most = 0;
   for (int i = 0; i < 40; ++i) {

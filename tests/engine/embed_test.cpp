@@ -115,7 +115,7 @@ TEST_CASE("several B's are kept at once, outlive each other, and may be moved") 
   // Another solver of the same device, with other switches.
   Solver other(test_device());
   SolveOptions options;
-  options.disabled = {"u3"};
+  options.engine.disabled = {"u3"};
   CHECK(interval(other.distance(a, kept[1], options))
             .meets(interval(solver().distance(a, meshes[2]))));
 }

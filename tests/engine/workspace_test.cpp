@@ -42,7 +42,7 @@ SolveOptions with_waves(uint32_t limit) {
 
 SolveOptions without(std::vector<std::string> switches) {
   SolveOptions options;
-  options.disabled = std::move(switches);
+  options.engine.disabled = std::move(switches);
   options.wave_limit = 200;
   return options;
 }
@@ -100,10 +100,10 @@ TEST_CASE("a run that outgrows its workspace gets a larger one, and is the run t
   for (const bool is_wide : {false, true}) {
     for (const ReferencePair& pair : pairs()) {
       SolveOptions options;
-      if (is_wide) options.enabled = {"wide", "group_walk", "split_twice"};
-      if (is_wide) options.disabled = {"centroid", "parent_samples"};
+      if (is_wide) options.engine.enabled = {"wide", "group_walk", "split_twice"};
+      if (is_wide) options.engine.disabled = {"centroid", "parent_samples"};
       const Report roomy = check_true(pair, options);
-      options.start_memory_bytes = 1;
+      options.engine.start_memory_bytes = 1;
       const Report grown = check_true(pair, options);
       check_same_run(grown, roomy);
       options.memory_bytes = 1;  // no more than that
@@ -118,7 +118,7 @@ TEST_CASE("of pairs side by side, too, each gets the room that it wants") {
   for (const ReferencePair& pair : pairs()) views.push_back({pair.a, pair.b});
   SolveOptions options;
   const std::vector<Report> roomy = solver().distances(views, options);
-  options.start_memory_bytes = 1;
+  options.engine.start_memory_bytes = 1;
   const std::vector<Report> grown = solver().distances(views, options);
   for (size_t i = 0; i < views.size(); ++i) check_same_run(grown[i], roomy[i]);
 }
@@ -332,8 +332,8 @@ TEST_CASE("with a GPU's switches, too, in any memory, a run again is the same ru
     for (const uint64_t bytes : {0ull, 1ull, 64ull << 10, 256ull << 10}) {
       CAPTURE(bytes);
       SolveOptions options = with_memory(bytes);
-      options.enabled = {"wide", "group_walk", "split_twice"};
-      options.disabled = {"centroid", "parent_samples"};
+      options.engine.enabled = {"wide", "group_walk", "split_twice"};
+      options.engine.disabled = {"centroid", "parent_samples"};
       const Report first = check_true(pair, options);
       const Report again = check_true(pair, options);
       CHECK(first.status == Status::kClosed);
@@ -365,13 +365,13 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
         SolveOptions options = with_memory(bytes);
         options.tolerance = tolerance;
         options.wave_limit = 400;
-        options.enabled = {"wide", "group_walk", "split_twice"};
-        options.disabled = {"centroid", "parent_samples"};
+        options.engine.enabled = {"wide", "group_walk", "split_twice"};
+        options.engine.disabled = {"centroid", "parent_samples"};
         const Report two = check_true(pair, options);
         CHECK(!has_stage(two, "subdivide"));
         CHECK(!has_stage(two, "plan"));
-        options.enabled.push_back("sort");
-        options.sort_from = ~0u;
+        options.engine.enabled.push_back("sort");
+        options.engine.sort_from = ~0u;
         const Report four = check_true(pair, options);
         // This holds only if the begin did not end the run.
         CHECK((four.waves <= 1 || has_stage(four, "subdivide")));
@@ -386,8 +386,8 @@ TEST_CASE("with a GPU's switches, a wave of two dispatches and one of four are t
 TEST_CASE("with a GPU's switches, what is spilled for want of memory keeps its bound") {
   for (const ReferencePair& pair : pairs()) {
     SolveOptions options = with_memory(1);
-    options.enabled = {"wide", "group_walk", "split_twice"};
-    options.disabled = {"centroid", "parent_samples", "defer"};
+    options.engine.enabled = {"wide", "group_walk", "split_twice"};
+    options.engine.disabled = {"centroid", "parent_samples", "defer"};
     check_true(pair, options);
   }
 }
@@ -437,7 +437,7 @@ TEST_CASE("what does not pay on a CPU device is off unless asked for") {
   for (const ReferencePair& pair : pairs()) {
     CHECK(check_true(pair, {}).switched_off == off);
     SolveOptions options;
-    options.enabled = off;
+    options.engine.enabled = off;
     CHECK(check_true(pair, options).switched_off.empty());
   }
 }
@@ -451,6 +451,6 @@ TEST_CASE("an unknown switch is refused by its name") {
     CHECK(std::string(error.what()).find("'u9'") != std::string::npos);
   }
   SolveOptions options;
-  options.enabled = {"u9"};
+  options.engine.enabled = {"u9"};
   CHECK_THROWS_AS(solver().distance(pair.a, pair.b, options), UsageError);
 }

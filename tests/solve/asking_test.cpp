@@ -45,7 +45,7 @@ TEST_CASE("its answer is that of the steps") {
   question.statistics = true;
   question.certificate = true;
   question.verify = true;
-  question.effort = 20000;
+  question.budget.effort = 20000;
   Solver* const solvers[] = {&on.solver};
   const Asking asking(question, on.a, on.b, solvers);
   const Answer found = asking.answer();
@@ -68,7 +68,7 @@ Question endless() {
   Question question;
   question.faces = true;
   question.face_tolerance = Length{.requested = "1e-12", .number = 1e-12};
-  question.effort = size_t{1} << 40;
+  question.budget.effort = size_t{1} << 40;
   return question;
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("several solvers share A") {
   Solver* const solvers[] = {&on.solver, &other};
   Question question;
   question.statistics = true;
-  question.effort = 1000;
+  question.budget.effort = 1000;
   const Answer two = Asking(question, on.a, on.b, solvers).answer();
   const Answer one = by_steps(on, question);
   CHECK(two.a_to_b.status == Status::kClosed);

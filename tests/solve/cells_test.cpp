@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "host/solve/run_hooks.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/cell_check.h"
 #include "tests/support/solver_bench.h"
@@ -16,9 +17,8 @@ using namespace vkh::test;
 /// Runs a pair, and calls `look` while it lies on the device.
 void survey(const Mesh& a, const Mesh& b, const Survey& look) {
   SolveOptions options;
-  options.survey = look;
   options.wave_limit = 1;
-  solver().distance(a, b, options);
+  distance_with(solver(), {a, b}, options, {.survey = look});
 }
 
 CellTally tally_of(const Mesh& a, const Mesh& b, size_t cells) {

@@ -9,10 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "host/survey/survey_with.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"
-#include "vkhausdorff/solver.h"
-#include "vkhausdorff/survey.h"
 
 namespace {
 
@@ -21,9 +20,7 @@ using namespace vkh::test;
 
 SurveyResult survey_of(const Mesh& a, const Mesh& b, const SurveyOptions& survey) {
   SurveyResult result;
-  SolveOptions options;
-  options.survey = survey_with(survey, result);
-  solver().distance(a, b, options);
+  distance_with(solver(), {a, b}, {}, {.survey = survey_with(survey, result)});
   return result;
 }
 

@@ -51,7 +51,7 @@ TEST_CASE("the farthest point is found to 1e-10, on either kind of device") {
       CAPTURE(wide);
       CAPTURE(tolerance);
       SolveOptions options = options_of(tolerance);
-      (wide ? options.enabled : options.disabled) = {"wide"};
+      (wide ? options.engine.enabled : options.engine.disabled) = {"wide"};
       const Report r = solver().distance(kA, kB, options);
       CHECK(r.status == Status::kClosed);
       CHECK_FALSE(is_coarse(r.witness_a.barycentric.y));
@@ -84,16 +84,16 @@ TEST_CASE("what becomes a subroot counts as closed, in the smallest workspace to
       CAPTURE(memory);
       CAPTURE(preset);
       SolveOptions options = options_of(1e-8);
-      options.coverage = true;
+      options.engine.coverage = true;
       options.memory_bytes = memory;
-      options.preset = preset;
+      options.engine.preset = preset;
       options.wave_limit = 300;
       const Report r = solver().distance(kA, kB, options);
       REQUIRE(r.coverage_check);
       CHECK(r.coverage_check->holds);
       CHECK(r.coverage_check->whole == 1);
       check_true(r);
-      if (options.preset != "baseline-gpu") CHECK(r.status == Status::kClosed);
+      if (options.engine.preset != "baseline-gpu") CHECK(r.status == Status::kClosed);
     }
   }
 }

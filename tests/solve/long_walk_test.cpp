@@ -3,11 +3,11 @@
 // (docs/certificate.md, "Loops that a driver ends"): bounds stay true there, if wider.
 #include <doctest/doctest.h>
 
+#include "host/solve/run_hooks.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/cell_check.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
-#include "vkhausdorff/solver.h"
 
 namespace {
 
@@ -23,10 +23,10 @@ TEST_CASE("bounds of cells are true") {
   SolveOptions options;
   options.wave_limit = 1;
   CellTally tally;
-  options.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
+  const Survey survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
     CellCheck(pair, b).check(bound, 7, 16, tally);
   };
-  solver().distance(a, b, options);
+  distance_with(solver(), {a, b}, options, {.survey = survey});
   CHECK(tally.cells == 16);
   CHECK(tally.below + tally.above + tally.means + tally.reached == 0);
 }

@@ -163,7 +163,7 @@ Metrics metrics_between(const Mesh& a, const Mesh& b, double degrees, const char
   question.metrics->figures = {"normal_consistency", "precision_normals", "recall_normals",
                                "f1_normals"};
   question.bands = {parse_length("--bands", band, PlainNumber::kRefused)};
-  question.effort = effort;
+  question.budget.effort = effort;
   Solver* const on[] = {&solver()};
   const Answer answer =
       Asking(question, std::make_shared<const ReadMesh>(a), std::make_shared<const ReadMesh>(b), on)

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "host/solve/run_hooks.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
@@ -184,7 +185,7 @@ TEST_CASE("more devices than faces, the same device twice, one, none") {
 TEST_CASE("nothing is lost of A") {
   const Mesh a = noisy(icosphere(1, 3), 0.02, 1), b = icosphere(1, 3);
   SolveOptions options;
-  options.coverage = true;
+  options.engine.coverage = true;
   const Report r = distance_over(both(), a, b, options);
   REQUIRE(r.coverage_check.has_value());
   CHECK(r.coverage_check->holds);
@@ -248,11 +249,12 @@ TEST_CASE("what becomes known between submissions prunes, and nothing known chan
   SolveOptions options;
   options.memory_bytes = 256 << 10;  // many submissions
   const Report alone = solver().distance(a, b, options);
-  options.known_since = [] { return 0.0; };
-  check_same(solver().distance(a, b, options), alone);
+  const auto with = [&](std::function<double()> known_since) {
+    return distance_with(solver(), {a, b}, options, {.known_since = std::move(known_since)});
+  };
+  check_same(with([] { return 0.0; }), alone);
   int asked = 0;
-  options.known_since = [&] { return ++asked > 1 ? 2 * alone.upper : 0; };
-  const Report pruned = solver().distance(a, b, options);
+  const Report pruned = with([&] { return ++asked > 1 ? 2 * alone.upper : 0; });
   CHECK(asked > 1);
   CHECK(pruned.candidates < alone.candidates);
   CHECK(interval(pruned).meets(interval(alone)));

@@ -37,10 +37,10 @@ const std::vector<ReferencePair>& pairs() {
 SolveOptions with(std::string preset, std::vector<std::string> enabled = {},
                   std::vector<std::string> disabled = {}) {
   SolveOptions options;
-  options.preset = std::move(preset);
-  options.enabled = std::move(enabled);
-  options.disabled = std::move(disabled);
-  options.sort_from = 1;
+  options.engine.preset = std::move(preset);
+  options.engine.enabled = std::move(enabled);
+  options.engine.disabled = std::move(disabled);
+  options.engine.sort_from = 1;
   options.wave_limit = 20'000;
   return options;
 }
@@ -162,7 +162,7 @@ TEST_CASE("where nothing may wait, what does not fit is lost, but not its bound"
   bool lost = false;
   for (const ReferencePair& pair : pairs()) {
     SolveOptions options = in_least_memory({}, {"defer"});
-    options.coverage = true;
+    options.engine.coverage = true;
     const Report r = solve(pair, options);
     CAPTURE(pair.name);
     CHECK(std::isfinite(r.upper));
@@ -223,7 +223,7 @@ std::map<std::string, std::vector<std::string>> table_of_guide() {
 TEST_CASE("the guide's table has every switch, and where it is on") {
   const auto rows = table_of_guide();
   const uint32_t host = kSwitchMultiwave;
-  SolveOptions paper, baseline;
+  EngineOptions paper, baseline;
   paper.preset = "paper";
   baseline.preset = "baseline-gpu";
   const uint32_t columns[] = {VKH_SWITCH_DEFAULT_WIDE | kSwitchWide | host,

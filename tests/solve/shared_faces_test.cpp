@@ -15,8 +15,8 @@ using namespace vkh::test;
 
 SolveOptions on_a_gpu() {
   SolveOptions options;
-  options.enabled = {"wide", "group_walk", "split_twice"};
-  options.disabled = {"centroid", "parent_samples"};
+  options.engine.enabled = {"wide", "group_walk", "split_twice"};
+  options.engine.disabled = {"centroid", "parent_samples"};
   return options;
 }
 
@@ -85,7 +85,7 @@ TEST_CASE("faces shared and faces moved: the moved ones decide") {
       CHECK(r.lower > 0);
       CHECK(r.status == Status::kClosed);
       SolveOptions none = options;
-      none.disabled.emplace_back("shared_faces");
+      none.engine.disabled.emplace_back("shared_faces");
       CHECK(interval(solver().distance(a, b, none)).meets(exact));
     }
   }

@@ -10,11 +10,10 @@
 
 #include "host/survey/sides.h"
 #include "host/survey/statistics.h"
+#include "host/survey/survey_with.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/error.h"
-#include "vkhausdorff/solver.h"
-#include "vkhausdorff/survey.h"
 
 namespace {
 
@@ -29,12 +28,10 @@ Mesh turned(Mesh mesh) {
 
 SurveyResult signed_survey(const Mesh& a, const Mesh& b, SurveyOptions survey = {}) {
   SurveyResult result;
-  SolveOptions options;
   survey.is_signed = survey.statistics = survey.faces = true;
   survey.mean_tolerance = survey.face_tolerance = 0.002;
   if (!survey.effort) survey.effort = 100000;
-  options.survey = survey_with(survey, result);
-  solver().distance(a, b, options);
+  distance_with(solver(), {a, b}, {}, {.survey = survey_with(survey, result)});
   REQUIRE(result.sides);
   return result;
 }
@@ -149,8 +146,7 @@ Verdict verdict_by(const Mesh& a, const Mesh& b, double over, double under) {
   survey.sided = limits;
   survey.effort = 100000;
   options.limit = limits.larger();
-  options.survey = survey_with(survey, result);
-  solver().distance(a, b, options);
+  distance_with(solver(), {a, b}, options, {.survey = survey_with(survey, result)});
   REQUIRE(result.sides);
   return verdict_of(result.sides->over, result.sides->under, limits);
 }
@@ -184,9 +180,9 @@ TEST_CASE("faces against each other are refused") {
   SurveyResult result;
   SurveyOptions survey;
   survey.is_signed = true;
-  SolveOptions options;
-  options.survey = survey_with(survey, result);
-  CHECK_THROWS_AS(solver().distance(square_patch(2, 0.1), b, options), InputError);
+  const Mesh a = square_patch(2, 0.1);
+  CHECK_THROWS_AS(distance_with(solver(), {a, b}, {}, {.survey = survey_with(survey, result)}),
+                  InputError);
 }
 
 // The witness is a corner of a cell: its distance, by hand, is at least what is told of it.

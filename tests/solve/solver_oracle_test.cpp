@@ -82,7 +82,7 @@ void check_pair(const Mesh& a, const Mesh& b, uint64_t seed) {
   cut.wave_limit = 1 + random.below(4);
   cut.memory_bytes = uint64_t{1} << (10 + random.below(12));
   for (const std::string& name : switch_names()) {
-    if (random.below(3) == 0) cut.disabled.push_back(name);
+    if (random.below(3) == 0) cut.engine.disabled.push_back(name);
   }
   CAPTURE(cut.wave_limit);
   CAPTURE(cut.memory_bytes);

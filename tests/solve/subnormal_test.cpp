@@ -22,7 +22,7 @@ constexpr double kLeast = 5e-324;
 void check_pair(const Mesh& a, const Mesh& b, const Rational& squared) {
   static Solver& solver = kept<Solver>(test_device());
   SolveOptions options;
-  options.coverage = true;
+  options.engine.coverage = true;
   const Report r = solver.distance(a, b, options);
   CAPTURE(r.lower);
   CAPTURE(r.upper);

@@ -15,12 +15,12 @@
 
 #include "host/base/parallel.h"
 #include "host/survey/cell_corners.h"
+#include "host/survey/survey_with.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/certificate.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/field_file.h"
-#include "vkhausdorff/solver.h"
 
 namespace {
 
@@ -29,9 +29,7 @@ using namespace vkh::test;
 
 SurveyResult surveyed(const Mesh& a, const Mesh& b, const SurveyOptions& survey) {
   SurveyResult result;
-  SolveOptions options;
-  options.survey = survey_with(survey, result);
-  solver().distance(a, b, options);
+  distance_with(solver(), {a, b}, {}, {.survey = survey_with(survey, result)});
   return result;
 }
 
@@ -212,9 +210,8 @@ TEST_CASE("hard pairs: the field holds h, and every percentile is in order") {
     SurveyOptions options = all_of_it();
     options.effort = 30000;
     SurveyResult r;
-    SolveOptions solve;
-    solve.survey = survey_with(options, r);
-    const Report report = solver().distance(hard.pair.a, hard.pair.b, solve);
+    const Report report = distance_with(solver(), {hard.pair.a, hard.pair.b}, {},
+                                        {.survey = survey_with(options, r)});
     const double most = *std::max_element(r.field.upper.begin(), r.field.upper.end());
     const double least = *std::max_element(r.field.lower.begin(), r.field.lower.end());
     CHECK(most >= report.lower);

@@ -76,7 +76,7 @@ TEST_CASE("coverage of each pair") {
   Solver solver(test_device());
   const std::vector<NamedPair> all = pairs();
   SolveOptions options;
-  options.coverage = true;
+  options.engine.coverage = true;
   for (const Report& r : solver.distances(views(all), options)) {
     REQUIRE(r.coverage_check.has_value());
     CHECK(r.coverage_check->holds);

@@ -159,7 +159,7 @@ TEST_CASE("parts of a face sum to the whole, or it is said which do not") {
 TEST_CASE("the device accounts for all of A, however the run ends") {
   Solver solver(test_device());
   const auto check = [&](const HardPair& hard, SolveOptions options) {
-    options.coverage = true;
+    options.engine.coverage = true;
     const Report r = solver.distance(hard.pair.a, hard.pair.b, options);
     REQUIRE(r.coverage_check);
     CAPTURE(r.coverage_check->whole);

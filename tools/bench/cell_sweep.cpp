@@ -3,12 +3,11 @@
 #include <cstdio>
 
 #include "host/base/parallel.h"
+#include "host/survey/survey_with.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/cell_check.h"
 #include "tests/verification/oracle/reference_solver.h"
 #include "tools/bench/sweep.h"
-#include "vkhausdorff/solver.h"
-#include "vkhausdorff/survey.h"
 
 namespace vkh::bench {
 namespace {
@@ -64,12 +63,12 @@ void sweep_pair(Solver& solver, const SweepOptions& args, uint64_t i, Totals& to
   int exponent = 0;
   SolveOptions options;
   options.time_limit_s = 5;
-  options.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
+  const Survey survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
     exponent = pair.frame.exponent;
     CellCheck(pair, hard.pair.b).check(bound, args.seed + i, args.cells, tally);
     survey_with(asked, result)(pair, bound);
   };
-  solver.distance(hard.pair.a, hard.pair.b, options);
+  distance_with(solver, {hard.pair.a, hard.pair.b}, options, {.survey = survey});
   const uint64_t faces = wrong_faces(hard.pair, result.field, exponent, args.spoil);
   totals.cells.add(tally);
   totals.faces += result.field.face_count();

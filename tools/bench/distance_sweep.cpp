@@ -107,7 +107,7 @@ SolveOptions options_for(const HardPair& hard, const Job& job, const SweepOption
   const uint32_t way = random.below(16);
   if (way == 0 && !hard.largest_gap_at_zero) options.wave_limit = 1 + random.below(4);
   if (way == 1) options.memory_bytes = 1;
-  options.coverage = way < 3;
+  options.engine.coverage = way < 3;
   // A mesh that is one point has no diagonal to take a fraction of.
   return options;
 }

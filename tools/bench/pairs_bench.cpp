@@ -113,7 +113,7 @@ class Race {
         if (!again[v]) continue;
         SolveOptions options = variants_[v].options;
         if (i % 3 == 0) outcomes[v].staged.push_back(solver_.distance(a, b, options));
-        options.stage_times = false;
+        options.engine.stage_times = false;
         outcomes[v].reports.push_back(solver_.distance(a, b, options));
       }
     }
@@ -167,7 +167,7 @@ class Race {
 };
 
 ExitCode run(Arguments& args) {
-  args.common.certified = !args.plain;
+  args.common.engine.certified = !args.plain;
   if (!args.memory.empty()) args.common.memory_bytes = parse_size("memory", args.memory);
   return Race(args).run();
 }
@@ -186,8 +186,8 @@ Measure add_pairs(CLI::App& app) {
   app.add_option("--repeat", args->repeat)->check(CLI::PositiveNumber);
   app.add_option("--tol", args->common.tolerance);
   app.add_option("--device", args->device);
-  app.add_option("--disable", args->common.disabled, "in every preset")->delimiter(',');
-  app.add_option("--enable", args->common.enabled, "in every preset")->delimiter(',');
+  app.add_option("--disable", args->common.engine.disabled, "in every preset")->delimiter(',');
+  app.add_option("--enable", args->common.engine.enabled, "in every preset")->delimiter(',');
   app.add_flag("--plain", args->plain, "nothing certified: what the certificate costs");
   app.add_flag("--not-robust", args->not_robust, "without robustBufferAccess: what it costs");
   app.add_flag("--not-mapped", args->not_mapped, "meshes copied from the host: what that costs");
@@ -196,7 +196,7 @@ Measure add_pairs(CLI::App& app) {
   app.add_option("--together", args->together, "pairs side by side, and each alone")
       ->check(CLI::PositiveNumber)
       ->excludes(presets);
-  app.add_option("--sort-from", args->common.sort_from, "smaller frontiers are not sorted");
+  app.add_option("--sort-from", args->common.engine.sort_from, "smaller frontiers are not sorted");
   return [args] { return run(*args); };
 }
 

@@ -60,9 +60,9 @@ void choose_set(SolveOptions& options, uint64_t i, size_t families) {
   const std::vector<std::string> presets = preset_names(), switches = switch_names();
   const uint64_t set = (i + i / families) % kSets;
   if (set < presets.size()) {
-    options.preset = presets[set];
+    options.engine.preset = presets[set];
   } else {
-    options.disabled = {switches[(set - presets.size()) % switches.size()]};
+    options.engine.disabled = {switches[(set - presets.size()) % switches.size()]};
   }
 }
 

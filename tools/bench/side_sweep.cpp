@@ -9,12 +9,11 @@
 #include "host/base/parallel.h"
 #include "host/survey/cell_corners.h"
 #include "host/survey/signed_figures.h"
+#include "host/survey/survey_with.h"
 #include "tests/shapes/shapes.h"
 #include "tests/verification/oracle/exact_side.h"
 #include "tools/bench/sweep.h"
 #include "vkhausdorff/mesh_io.h"
-#include "vkhausdorff/solver.h"
-#include "vkhausdorff/survey.h"
 
 namespace vkh::bench {
 namespace {
@@ -157,17 +156,14 @@ double survey_ms(Solver& solver, const Mesh& a, const Mesh& b, const SweepOption
   survey.faces = survey.statistics = true;
   survey.is_signed = is_signed;
   survey.effort = args.effort;
-  SolveOptions options;
-  options.survey = survey_with(survey, result);
-  solver.distance(a, b, options);
+  distance_with(solver, {a, b}, {}, {.survey = survey_with(survey, result)});
   return result.ms;
 }
 
 // Halves the largest cells until there are so many, and tells the sides of all.
 Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const SweepOptions& args) {
   Checked checked;
-  SolveOptions options;
-  options.survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
+  const Survey survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
     CellStore store(a, 3e38f);
     for (bool is_first = true; is_first || store.count() < args.effort / 2; is_first = false) {
       std::vector<size_t> which;
@@ -192,7 +188,7 @@ Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const SweepOpti
     const Sides sides(pair);
     checked = check_cells(pair, store, sides, sides.of(store), args.cells);
   };
-  solver.distance(a, b, options);
+  distance_with(solver, {a, b}, {}, {.survey = survey});
   return checked;
 }
 

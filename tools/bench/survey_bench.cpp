@@ -12,11 +12,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "host/survey/survey_with.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/manifest.h"
 #include "vkhausdorff/mesh_io.h"
-#include "vkhausdorff/solver.h"
-#include "vkhausdorff/survey.h"
 
 namespace vkh::bench {
 namespace {
@@ -68,8 +67,7 @@ void measure(Solver& solver, const Row& row, Arguments arguments) {
   arguments.survey.field_tolerance = arguments.field_tolerance * plain.upper;
   for (const double part : {0.25, 0.5, 0.75}) arguments.survey.bands.push_back(part * plain.upper);
   SurveyResult result;
-  options.survey = survey_with(arguments.survey, result);
-  solver.distance(a, b, options);
+  distance_with(solver, {a, b}, options, {.survey = survey_with(arguments.survey, result)});
   print_row(row.pair, plain, result);
 }
 

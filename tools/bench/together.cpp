@@ -103,7 +103,7 @@ int run_group(Solver& solver, const Group& group, int repeat, const SolveOptions
 
 int run_together(Solver& solver, const std::vector<Row>& rows, const Groups& groups,
                  SolveOptions options) {
-  options.stage_times = false;
+  options.engine.stage_times = false;
   std::map<std::string, std::vector<Loaded>> families;
   for (const Row& row : rows)
     families[row.family].push_back({read_mesh(row.file_a), read_mesh(row.file_b)});

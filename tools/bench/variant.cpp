@@ -30,13 +30,14 @@ void check_switch(const std::string& text, const std::string& name) {
 Variant variant_of(const std::string& name, const SolveOptions& common) {
   Variant variant{name, common};
   const std::string preset = preset_at_start(name);
-  variant.options.preset = preset;
+  variant.options.engine.preset = preset;
   size_t at = preset.size();
   while (at < name.size() && (name[at] == '+' || name[at] == '-')) {
     const size_t end = std::min(name.find_first_of("+-@", at + 1), name.size());
     const std::string part = name.substr(at + 1, end - at - 1);
     check_switch(name, part);
-    (name[at] == '+' ? variant.options.enabled : variant.options.disabled).push_back(part);
+    (name[at] == '+' ? variant.options.engine.enabled : variant.options.engine.disabled)
+        .push_back(part);
     at = end;
   }
   if (at < name.size() && name[at] == '@') {

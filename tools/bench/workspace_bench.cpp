@@ -104,10 +104,10 @@ void measure(Solver& solver, const Pair& pair, const Arguments& arguments,
       options.tolerance = arguments.tolerance;
       options.time_limit_s = 60;
       options.memory_bytes = size.bytes;
-      options.stage_times = false;
+      options.engine.stage_times = false;
       if (arguments.gpu_profile) {
-        options.enabled = {"wide", "group_walk", "split_twice"};
-        options.disabled = {"centroid", "parent_samples"};
+        options.engine.enabled = {"wide", "group_walk", "split_twice"};
+        options.engine.disabled = {"centroid", "parent_samples"};
       }
       size.report = solver.distance(pair.a, pair.b, options);
       if (run > 0) size.ms = std::min(size.ms, size.report.times.solve_ms);

@@ -30,7 +30,7 @@ PUBLIC = {
     "gpu": "device device_description",
     "mesh": "file_faces mesh mesh_transform polygon",
     "read": "mesh_io place read_limits",
-    "solve": "align closest_points face_gate frame report solve_options solver stream together verify",
+    "solve": "align closest_points engine_options face_gate frame report solve_options solver stream together verify",
     "survey": "cell_map certificate field metrics prover side survey",
     "write": "colour_map field_file",
     "simplify": "levels simplify",

@@ -21,7 +21,7 @@ class Asking {
   using Deadline = std::chrono::steady_clock::time_point;
 
   /// Begins at once. `question`: of its members, files, devices and hashes are not looked at;
-  /// options.time_limit_s counts from now and is for all work. `solvers`: one, or several on
+  /// budget.time_limit_s counts from now and is for all work. `solvers`: one, or several on
   /// devices of their own for one direction, which share A's faces; the first also surveys and
   /// proves. They must outlive the Asking, and no other code may use them meanwhile. `stop`: a
   /// request ends the work as cancel() does.

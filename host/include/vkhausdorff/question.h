@@ -4,16 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "vkhausdorff/engine_options.h"
 #include "vkhausdorff/length.h"
 #include "vkhausdorff/limit.h"
 #include "vkhausdorff/mesh_transform.h"
 #include "vkhausdorff/metrics.h"
 #include "vkhausdorff/read_limits.h"
-#include "vkhausdorff/solve_options.h"
 
 namespace vkh {
 
@@ -25,6 +27,15 @@ struct PartOf {
 /// Limits of points over B, in front of its faces, and of points under it.
 struct SidedMax {
   Length over, under;
+};
+
+/// The most that an answer may cost, besides that of its files.
+struct Budget {
+  double time_limit_s = std::numeric_limits<double>::infinity();  ///< for all work
+  std::optional<double> survey_time_s;  ///< the time of each survey; none: as the rest
+  std::optional<uint64_t> effort;       ///< SurveyOptions::effort
+  uint32_t wave_limit = std::numeric_limits<uint32_t>::max();
+  uint64_t memory_bytes = 0;  ///< SolveOptions::memory_bytes
 };
 
 struct Question {
@@ -48,7 +59,6 @@ struct Question {
   bool symmetric = false;             ///< both directions
   std::optional<PartOf> part;         ///< the part of A, alone
   std::optional<Length> known_lower;  ///< the bound that other parts have shown
-  SolveOptions options;               ///< all but tolerance, limit and progress
 
   // A limit.
   std::optional<Length> max;
@@ -72,13 +82,13 @@ struct Question {
   double map_pixels = 0;  ///< MapOptions::pixels of a map of A by cells; 0: none
   /// The ends of the map's colours; none: the limit decides, or the map.
   std::optional<std::array<Length, 2>> map_range;
-  bool map_sides = false;               ///< MapOptions::sides_if_cheap
-  std::optional<uint64_t> effort;       ///< SurveyOptions::effort
-  std::optional<double> survey_time_s;  ///< the time of each survey; none: as the rest
-  bool certificate = false;             ///< Answer::proof_a is wanted
-  bool verify = false;                  ///< the host checks the answer
+  bool map_sides = false;    ///< MapOptions::sides_if_cheap
+  bool certificate = false;  ///< Answer::proof_a is wanted
+  bool verify = false;       ///< the host checks the answer
 
-  // The devices.
+  // The cost, and the devices.
+  Budget budget;
+  EngineOptions engine;
   std::string device;            ///< DeviceRequest::selector
   bool several_devices = false;  ///< allows several, such as "0,1" or "all"
   bool caches = true;            ///< keeps compiled pipelines in the user's folder

@@ -15,6 +15,7 @@
 namespace vkh {
 
 struct FramedPair;
+struct RunHooks;  // host/solve/run_hooks.h
 
 /// Mesh B on the device with its BVH, for many A's. Made by a Solver, used by any Solver of the
 /// same device, outlives neither the device nor its owner's handles.
@@ -40,8 +41,8 @@ struct PairView {
   const Mesh& a;
   const Mesh& b;
   const PreparedMesh* prepared = nullptr;  ///< b on the device; its answer is that of distance()
-  const SolveOptions* options = nullptr;   ///< the pair's own; null: those of the call. Switches,
-                                           ///< preset and memory should be the same for all
+  const SolveOptions* options = nullptr;   ///< the pair's own; null: those of the call. `engine`
+                                           ///< and memory should be the same for all
   /// frame_pair(a, b) of frame.h, made before, on any thread, for two meshes that check_mesh() let
   /// pass; null: the call checks and frames them.
   const FramedPair* framed = nullptr;
@@ -64,7 +65,7 @@ class Solver {
 
   /// Creates the pipelines that a run with these options needs, which its first run does otherwise:
   /// the slow part of a start, so that meshes may be read meanwhile.
-  void make_ready(const SolveOptions& options = {});
+  void make_ready(const EngineOptions& options = {});
   const Device& device() const;
 
   /// Encloses h(a, b).
@@ -103,12 +104,8 @@ class Solver {
   /// options.limit.
   SymmetricReport symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
 
-  /// Calls `use` once while the pair lies on the device, to bound cells of A. Before that it makes
-  /// one wave. Takes switches, preset, memory and progress from `options`, and neither limits nor
-  /// budgets; the pair's own options are ignored.
-  void with_cells(const PairView& pair, const SolveOptions& options, const Survey& use);
-
  private:
+  friend Report distance_with(Solver&, const PairView&, const SolveOptions&, const RunHooks&);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -48,7 +48,7 @@ struct StreamOptions {
   /// long to start gets no pairs until it has: see wait_until_open().
   std::vector<std::string> devices = {""};
   std::filesystem::path cache_folder;  ///< see Solver
-  SolveOptions first;                  ///< its pipelines are made while the first pairs are read
+  EngineOptions first;                 ///< its pipelines are made while the first pairs are read
   size_t together = 0;   ///< pairs side by side in one submission; 0: what pays on the device
   size_t lanes = 0;      ///< submissions side by side on a device; 0: what pays on it
   bool surveys = false;  ///< most pairs have a survey in `beside`, which is mostly the host's work

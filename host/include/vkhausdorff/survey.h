@@ -134,15 +134,11 @@ struct SurveyResult {
 /// The field of a run that ended before its survey began: no distance is above `upper`.
 Field field_within(size_t face_count, double upper);
 
-/// Surveys the pair's A in a run of its own. `run`: switches, preset, memory and progress, as
-/// Solver::with_cells takes them. Throws what that throws, and what survey_with() names.
+/// Surveys the pair's A in a run of its own, which takes `engine`, memory and progress from `run`.
+/// Throws what Solver throws; UsageError for a percentile outside [0, 1] and for statistics or
+/// sides of meshes of any triangulation; and InputError for sides of a B with two faces that use an
+/// edge in one direction.
 SurveyResult survey_mesh(Solver& solver, const PairView& pair, const SurveyOptions& options,
                          const SolveOptions& run = {});
-
-/// Sets options.survey, which writes `result` when the run has ended. Both must outlive it. The
-/// survey throws UsageError for a percentile outside [0, 1] and for statistics or sides of meshes
-/// of any triangulation, and InputError for sides of a B with two faces that use an edge in one
-/// direction.
-Survey survey_with(const SurveyOptions& options, SurveyResult& result);
 
 }  // namespace vkh

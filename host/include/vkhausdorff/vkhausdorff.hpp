@@ -10,6 +10,7 @@
 #include <vkhausdorff/colour_map.h>
 #include <vkhausdorff/device.h>
 #include <vkhausdorff/device_description.h>
+#include <vkhausdorff/engine_options.h>
 #include <vkhausdorff/error.h>
 #include <vkhausdorff/face_gate.h>
 #include <vkhausdorff/field.h>

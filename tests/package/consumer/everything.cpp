@@ -16,7 +16,7 @@ int main(int argc, char** argv) {  // everything A B FIELD.ply CERTIFICATE.vhc
   question.faces = question.statistics = true;  // bounds of each face; mean, percentiles, bands
   question.certificate = true;
   question.verify = true;  // the host checks the witness against every face of B
-  question.options.time_limit_s = 60;
+  question.budget.time_limit_s = 60;
 
   vkh::Asking asking(question, a, b, solvers);  // and a std::stop_token, if you have one
   while (!asking.wait(std::chrono::steady_clock::now() + std::chrono::seconds(1))) {

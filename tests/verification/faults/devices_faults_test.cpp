@@ -29,13 +29,14 @@ struct Two {
   std::vector<Solver*> solvers{&ones[0].solver, &ones[1].solver};
 
   explicit Two(const SolveOptions& options) {
-    for (Solver* solver : solvers) solver->make_ready(options);
+    for (Solver* solver : solvers) solver->make_ready(options.engine);
   }
 };
 
 SolveOptions options() {
   SolveOptions out;
   out.tolerance = 1e-7;
+  out.engine.fine = true;
   out.memory_bytes = 64 << 10;  // many submissions
   return out;
 }

@@ -119,7 +119,7 @@ TEST_CASE("a run, and the table of its answer") {
   const Mesh a = noisy(icosphere(1, 1), 0.05, 1), b = icosphere(1, 1);
   SolveOptions options;
   options.memory_bytes = 4 << 20;
-  options.coverage = true;
+  options.engine.coverage = true;
   const auto text = [](const Report& r) { return hex(r.lower) + hex(r.upper); };
   try_all("distance", 40, [&] { return text(solver.distance(a, b, options)); });
   try_all("prepared", 20, [&] { return text(solver.distance(a, solver.prepare(b), options)); });

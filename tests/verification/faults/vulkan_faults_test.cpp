@@ -108,8 +108,8 @@ struct Kept {
 
   Kept() {
     options.memory_bytes = 4 << 20;
-    options.coverage = true;
-    solver->make_ready(options);
+    options.engine.coverage = true;
+    solver->make_ready(options.engine);
   }
 
   /// A run for which there is no memory leaves the solver without buffers.

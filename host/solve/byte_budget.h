@@ -8,9 +8,9 @@
 
 namespace vkh {
 
-class Budget {
+class ByteBudget {
  public:
-  explicit Budget(uint64_t bytes) : most_(bytes) {}
+  explicit ByteBudget(uint64_t bytes) : most_(bytes) {}
 
   /// A place in the order of take().
   uint64_t ticket() {
