@@ -28,6 +28,13 @@ struct Rule {
   Commands of = kProgram;
 };
 
+/// The same for whoever asks, by command line, list, Python or C++: no question may be so.
+struct QuestionRule {
+  bool (*when)(const Question&);
+  const char* says;
+  bool is_of_all = false;  ///< what is still to be filled in may put it right
+};
+
 bool any_of(const Request& asked, const Names& names) {
   return std::any_of(names.begin(), names.end(), [&](auto name) { return asked.has(name); });
 }
@@ -37,10 +44,6 @@ When with(Names names) {
 When without(Names names) {
   return [names = std::move(names)](const Request& asked) { return !any_of(asked, names); };
 }
-
-bool is_by_face(const Request& asked) { return asked.question.is_by_face(); }
-bool asks_for_sides(const Request& asked) { return asked.question.asks_for_sides(); }
-bool has_metrics(const Request& asked) { return asked.metrics; }
 
 const Names kCells{"field", "image", "report", "figures-csv", "points-out"};
 const Names kPages{"report", "figures-csv", "report-dir", "certificate"};
@@ -55,7 +58,7 @@ bool is_of_triangles(const Request& asked) {
 bool has_no_survey(const Request& asked) {
   const bool has_list =
       asked.command == kBatch && asked.many.against.empty() && asked.many.files.size() == 1;
-  return !has_list && !asked.metrics && !asks_for_sides(asked) &&
+  return !has_list && !asked.metrics && !asked.question.asks_for_sides() &&
          !any_of(asked, {"stats", "bands", "area", "field-tol", "image-dir", "report-dir"}) &&
          !any_of(asked, kCells);
 }
@@ -79,19 +82,12 @@ std::vector<Rule> rules_of_placement() {
 
 std::vector<Rule> rules_of_limits() {
   return {
+      {{"known-lower"},
+       without({"part"}),
+       "{known-lower}: is what other parts have shown: ask for a {part}"},
       {{"face-max-b"},
        without({"symmetric"}),
        "{face-max-b}: limits of B's faces are asked about by {symmetric} alone"},
-      {{"verify"}, is_by_face, "{verify}: is not to be had with {face-max}"},
-      {{"area"}, is_by_face, "{area}: faces with limits of their own are asked about whole", kAll},
-      {{"symmetric"},
-       [](const Request& asked) { return asked.question.face_limits_a.has_value(); },
-       "{max}: limits of A's faces say nothing of B's; ask for each direction apart",
-       kAll},
-      {{"certificate"},
-       [](const Request& asked) { return asked.has("area") || is_by_face(asked); },
-       "{certificate}: is of the interval, not to be had with {area} or {face-max}",
-       kDistance | kGate | kPython},
       {{"polygons"},
        [](const Request& asked) {
          return asked.question.limits.any_triangulation && is_of_triangles(asked);
@@ -103,41 +99,17 @@ std::vector<Rule> rules_of_limits() {
        "{field}: points with their distances are written as .ply, not as .glb"}};
 }
 
-std::vector<Rule> rules_of_parts() {
-  Names more{"symmetric", "stats", "signed", "bands", "field-tol", "certificate"};
-  more.insert(more.end(), kCells.begin(), kCells.end());
-  return {{{"known-lower"},
-           without({"part"}),
-           "{known-lower}: is what other parts have shown: ask for a {part}"},
-          {{"part"},
-           with({"align"}),
-           "{part}: is of A where it lies: find the place once, by {align} and {save-transform}, "
-           "and give it to each part by {transform}"},
-          {{"part"},
-           with(std::move(more)),
-           "{part}: one direction's interval is all that is to be had of a part: no {symmetric}, "
-           "{stats}, {signed}, {bands}, {field-tol}, {field}, {image}, {report}, {figures-csv}, "
-           "{points-out} or {certificate}"}};
-}
-
 std::vector<Rule> rules_of_figures() {
   Names shown{"stats", "bands"};
   shown.insert(shown.end(), kSurface.begin(), kSurface.end());
-  return {{{"metrics"},
-           with({"max"}),
-           "{metrics}: figures are no verdict: leave out {max}, or ask for it by itself"},
-          {{"bands", "percentile", "figures", "normals"},
+  return {{{"bands", "percentile", "figures", "normals"},
            without({"metrics"}),
            "{bands}, {percentile}, {figures}, {normals}: are of {metrics}",
            kBatch},
-          {{"max-distance"}, has_metrics, "{max-distance}: metrics are of all of A and B"},
           {{"max-distance"},
            without(std::move(shown)),
            "{max-distance}: is of figures and pictures: ask for {stats}, {bands}, {image} or "
            "{report}; in a batch for {image-dir} or {report-dir}"},
-          {{"max-distance"},
-           [](const Request& asked) { return asked.has("area") || asks_for_sides(asked); },
-           "{max-distance}: leaves out of figures and pictures alone: no {area}, no sides"},
           {{"effort"},
            has_no_survey,
            "{effort}: is of figures and faces' bounds: ask for {stats}, {signed}, {bands}, {area}, "
@@ -179,10 +151,43 @@ std::vector<Rule> rules_of_simplify() {
            kSimplify}};
 }
 
+constexpr QuestionRule kQuestionRules[] = {
+    {[](const Question& q) { return q.metrics && (!q.symmetric || q.max); },
+     "{metrics}: figures are of both directions and no verdict: leave out {max}, and a {symmetric} "
+     "that is false"},
+    {[](const Question& q) { return q.metrics && q.max_distance; },
+     "{max-distance}: metrics are of all of A and B"},
+    {[](const Question& q) { return q.max_distance && (q.area || q.asks_for_sides()); },
+     "{max-distance}: leaves out of figures and pictures alone: no {area}, no sides"},
+    {[](const Question& q) { return q.max_distance && !q.statistics && !(q.map_pixels > 0); },
+     "{max-distance}: is of figures and of pictures by cells, which are not asked for", true},
+    {[](const Question& q) { return q.verify && q.is_by_face(); },
+     "{verify}: is not to be had with {face-max}"},
+    {[](const Question& q) { return q.area && q.is_by_face(); },
+     "{area}: faces with limits of their own are asked about whole"},
+    {[](const Question& q) { return q.symmetric && q.face_limits_a; },
+     "{max}: limits of A's faces say nothing of B's; ask for each direction apart"},
+    {[](const Question& q) { return q.certificate && (q.area || q.is_by_face()); },
+     "{certificate}: is of the interval, not to be had with {area} or {face-max}"},
+    {[](const Question& q) { return q.max_sides && q.symmetric; },
+     "{symmetric}: limits of two sides are of A's points, over B or under it, and a dent of A is "
+     "no dent of B; ask for each direction by itself"},
+    {[](const Question& q) { return q.max_sides && (q.is_by_face() || q.area); },
+     "{max}: limits of two sides are of every point, and not to be had by face or by area"},
+    {[](const Question& q) { return q.part && q.align; },
+     "{part}: is of A where it lies: find the place once, by {align} and {save-transform}, and "
+     "give it to each part by {transform}"},
+    {[](const Question& q) {
+       return q.part && (q.symmetric || q.worst || q.asks_for_cells());
+     },
+     "{part}: one direction's interval is all that is to be had of a part: no {symmetric}, "
+     "{stats}, {signed}, {bands}, {field-tol}, {field}, {image}, {report}, {figures-csv}, "
+     "{points-out} or {certificate}"}};
+
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> known = [] {
     std::vector<Rule> all;
-    for (auto* some : {rules_of_placement, rules_of_limits, rules_of_parts, rules_of_figures,
+    for (auto* some : {rules_of_placement, rules_of_limits, rules_of_figures,
                        rules_of_pictures, rules_of_simplify})
       for (Rule& rule : some()) all.push_back(std::move(rule));
     return all;
@@ -198,6 +203,31 @@ std::string worded(std::string text, std::string_view option, const Naming& nami
     text.replace(at, end + 1 - at, naming(named == "option" ? option : named));
   }
   return text;
+}
+
+void check_figure(const Question& question, const std::string& figure, const Naming& naming) {
+  const std::string option = naming("figures") + " " + figure;
+  const auto is_it = [&](const auto& named) { return figure == named.name; };
+  const auto metric = std::find_if(kNamedMetrics.begin(), kNamedMetrics.end(), is_it);
+  const auto share = std::find_if(kNamedShares.begin(), kNamedShares.end(), is_it);
+  const bool is_share = share != kNamedShares.end();
+  if (!is_share && metric == kNamedMetrics.end())
+    throw UsageError(option + ": expected names of " + names_of_figures());
+  if (is_share && question.bands.empty())
+    throw UsageError(option + ": give its distances by " + naming("bands"));
+  if ((is_share ? share->of_normals : metric->of_normals) && !question.metrics->normals)
+    throw UsageError(option + ": give the angle by " + naming("normals"));
+}
+
+/// `is_all`: nothing is still to be filled in.
+void check_question(const Question& question, const Naming& naming, bool is_all) {
+  for (const QuestionRule& rule : kQuestionRules) {
+    if ((is_all || !rule.is_of_all) && rule.when(question))
+      throw UsageError(worded(rule.says, "", naming));
+  }
+  if (!question.metrics) return;
+  for (const std::string& figure : question.metrics->figures)
+    check_figure(question, figure, naming);
 }
 
 void complete_metrics(Request& asked, const Naming& naming) {
@@ -245,9 +275,17 @@ void complete(Request& asked, const Naming& naming) {
   complete_metrics(asked, naming);
   complete_outputs(asked);
   if (asked.command == kBatch) complete_batch(asked);
+  check_question(question, naming, false);
   if (asked.command != kSimplify) return;
   question.tolerance = default_tolerance(true);
   question.symmetric = !asked.simplify.one_way;
+}
+
+void check_question(const Question& question) {
+  const Naming naming = [&](std::string_view option) {
+    return question.option(std::string(option).c_str());
+  };
+  check_question(question, naming, true);
 }
 
 }  // namespace vkh

@@ -17,7 +17,11 @@ std::string with_dashes(std::string_view option);
 void check_together(const Request& asked, const Naming& naming);
 
 /// Fills in what the options that were given imply. Throws UsageError for figures that no metrics
-/// have. Call it once, after check_together().
+/// have, and for the first rule of questions that is broken. Call it once, after check_together().
 void complete(Request& asked, const Naming& naming);
+
+/// Throws UsageError for the first rule of questions that a whole one breaks, whoever asks it:
+/// unread_answer() does so for all.
+void check_question(const Question& question);
 
 }  // namespace vkh

@@ -137,15 +137,6 @@ bool goes_on_to_worst(const Question& question, const Observer& observer, const 
 void check_sides(const Question& question, const Mesh& a, const Mesh& b) {
   if (!question.asks_for_sides()) return;
   refuse_any_triangulation(a, b, question.option("signed"));
-  if (question.max_sides && question.symmetric)
-    throw UsageError(question.option("symmetric") +
-                     ": limits of two sides are of A's points, over B or under it, and a dent of A "
-                     "is no dent of B; ask for each direction by itself");
-  if (question.max_sides && (question.is_by_face() || question.area))
-    throw UsageError(question.option("max") +
-                     ": limits of two sides are of every point, and not to be had by face or by "
-                     "area");
-  if (question.part) throw UsageError(question.option("part") + ": sides are found of all of A");
   refuse_conflicts(b);
   if (question.symmetric) refuse_conflicts(a);
 }

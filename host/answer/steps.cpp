@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "host/answer/pair_notes.h"
+#include "host/answer/rules.h"
 #include "host/base/decimal.h"
 #include "host/base/reject.h"
 #include "host/base/rounding.h"
@@ -99,6 +100,7 @@ std::vector<Note> notes_on_units(const Mesh& a, const Units& units) {
 }  // namespace
 
 Answer unread_answer(const Question& question) {
+  check_question(question);
   Answer known;
   known.command = question.command;
   known.words = question.words;
@@ -141,27 +143,6 @@ void check_area(const Question& question, const Mesh& mesh) {
          "a surface, of which --area " + question.area_requested + " asks a share");
 }
 
-// Refuses a figure of distances that are not given, or of normals without their angle, and a name
-// that is none.
-void check_figure(const Question& question, const std::string& figure) {
-  const std::string option = question.option("figures") + " " + figure;
-  const auto is_it = [&](const auto& named) { return figure == named.name; };
-  const auto metric = std::find_if(kNamedMetrics.begin(), kNamedMetrics.end(), is_it);
-  const auto share = std::find_if(kNamedShares.begin(), kNamedShares.end(), is_it);
-  const bool is_share = share != kNamedShares.end();
-  if (!is_share && metric == kNamedMetrics.end())
-    throw UsageError(option + ": expected names of " + names_of_figures());
-  if (is_share && question.bands.empty())
-    throw UsageError(option + ": give its distances by " + question.option("bands"));
-  if ((is_share ? share->of_normals : metric->of_normals) && !question.metrics->normals)
-    throw UsageError(option + ": give the angle by " + question.option("normals"));
-}
-
-void check_figures(const Question& question) {
-  if (!question.metrics) return;
-  for (const std::string& figure : question.metrics->figures) check_figure(question, figure);
-}
-
 // Refuses what a surface alone has.
 void check_points(const Question& question, const Mesh& a, const Mesh& b) {
   const auto check_from = [&](const Mesh& from, const Mesh& to) {
@@ -170,16 +151,6 @@ void check_points(const Question& question, const Mesh& a, const Mesh& b) {
   };
   check_from(a, b);
   if (question.symmetric) check_from(b, a);
-}
-
-// Only figures and maps without sides have a part of A that they are of.
-void check_max_distance(const Question& question) {
-  if (!question.max_distance) return;
-  const std::string option = question.option("max-distance");
-  if (!question.statistics && !(question.map_pixels > 0))
-    throw UsageError(option + ": is of figures and of pictures by cells, which are not asked for");
-  if (question.area || question.asks_for_sides())
-    throw UsageError(option + ": is of figures and pictures, not of areas to pass or sides");
 }
 
 // Corners that are off a plane by less than a tenth of the tolerance, as decimals of a slanted
@@ -377,8 +348,6 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   if (units.differ())
     throw UsageError("A is in " + units.a + " and B in " + units.b + ": convert one of them");
   check_points(question, a, b);
-  check_figures(question);
-  check_max_distance(question);
   check_area(question, a);
   if (question.symmetric) check_area(question, b);
   const double farthest = farthest_in(join(box_a, box_b), add_up(a.delta, b.delta));

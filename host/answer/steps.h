@@ -49,7 +49,8 @@ struct ShapedMesh {
   MeshShape shape;
 };
 
-/// The answer before anything is read: [0, infinity).
+/// The answer before anything is read: [0, infinity). Throws UsageError as check_question() of
+/// rules.h does.
 Answer unread_answer(const Question& question);
 
 /// Puts A where the question says: in B's unit, where both units are known and differ, and by the
@@ -83,8 +84,8 @@ SolveOptions run_options(const Question& question);
 /// The options for an interval as narrow as such an answer needs. `known` has its meshes.
 SolveOptions solve_options(const Question& question, const Answer& known);
 
-/// Refuses, with UsageError, what has no sides where the question asks for them: before any work.
-/// solve() does so itself.
+/// Refuses, with UsageError or InputError, meshes without sides where the question asks for them:
+/// before any work. solve() does so itself.
 void check_sides(const Question& question, const Mesh& a, const Mesh& b);
 
 /// Solves what is asked of the distance: one direction or both, a part of A, over all solvers, or

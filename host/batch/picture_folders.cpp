@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "host/answer/merge.h"
+#include "host/answer/rules.h"
 #include "host/answer/steps.h"
 #include "host/base/decimal.h"
 #include "host/base/system.h"
@@ -93,9 +94,8 @@ void BatchFolders::ask(Question& question) const {
   question.statistics = question.statistics || reports_.has_value();
   if (effort_) question.budget.effort = effort_;
   if (!max_distance_) return;
-  if (question.asks_for_sides())
-    throw UsageError("--max-distance: leaves out of figures and pictures without sides alone");
   question.max_distance = max_distance_;
+  check_question(question);
 }
 
 // Writes no picture of a survey that was cut short: it would later be taken for a whole one.

@@ -100,10 +100,6 @@ NamedEntry EntryReader::name(const Entry& entry) {
   Question& question = named.question = asked.question;
   question.file_a = entry.file_a;
   question.file_b = entry.file_b;
-  if (question.metrics && (!question.symmetric || question.max))
-    throw UsageError(
-        "--metrics: figures are of both directions and no verdict: leave out 'max', and "
-        "'symmetric' that is false");
   named.known = unread_answer(question);
   const bool shares_b = shared_.count(entry.file_b) > 0;
   named.known.inputs[0].path = entry.a;

@@ -24,7 +24,8 @@ class Asking {
   /// budget.time_limit_s counts from now and is for all work. `solvers`: one, or several on
   /// devices of their own for one direction, which share A's faces; the first also surveys and
   /// proves. They must outlive the Asking, and no other code may use them meanwhile. `stop`: a
-  /// request ends the work as cancel() does.
+  /// request ends the work as cancel() does. Throws UsageError for null meshes, for no Solver, and
+  /// for a question whose members do not go together, whatever the meshes are.
   Asking(Question question, std::shared_ptr<const ReadMesh> a, std::shared_ptr<const ReadMesh> b,
          std::span<Solver* const> solvers, std::stop_token stop = {});
   /// Cancels what is not done, and waits.
