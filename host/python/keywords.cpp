@@ -55,9 +55,16 @@ bool takes_none(const Option& option, Functions function) {
   }
 }
 
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::string quoted_choices(const Option& option) {
   std::vector<std::string> quoted;
   for (const std::string& choice : option.choices) quoted.push_back("'" + choice + "'");
+  const std::string none = option.none;
+  const bool is_known = none.size() <= 2 || is_among(quoted, none);
+  if (none.starts_with("'") && !is_known) quoted.insert(quoted.begin(), none);
   return joined(quoted, " or ");
 }
 
@@ -137,37 +144,7 @@ std::vector<Length> lengths_from(const Value& value) {
   return lengths;
 }
 
-/// Reads a number of per cent, or "0.5%".
-double percentile_from(const Value& value) {
-  if (value.is_text()) {
-    const std::string text = value.text();
-    if (!text.ends_with('%')) refuse_type(value.name, value.expected, value.given);
-    return parse_percentile(value.name, text);
-  }
-  const double percentile = number_from(value.name, value.expected, value.given);
-  if (!(percentile > 0 && percentile <= 100)) value.refuse();
-  check_percentile(value.name, percentile);
-  return percentile;
-}
-
-/// Reads a number, or "99.5%".
-double share_from(const Value& value) {
-  if (!value.is_text()) {
-    const double share = number_from(value.name, value.expected, value.given);
-    if (!(share > 0 && share <= 1)) value.refuse();
-    return share;
-  }
-  const std::string text = value.text();
-  if (!text.ends_with('%')) value.refuse();
-  try {
-    return parse_share(value.name, text);
-  } catch (const UsageError&) {
-    value.refuse();
-  }
-}
-
 double number_of(const Option& option, const Value& value) {
-  if (option.kind == Kind::kPercentile) return percentile_from(value);
   const double number = number_from(value.name, value.expected, value.given);
   const bool is_one = option.kind == Kind::kTime ? number >= 0 : number > 0 && number <= 90;
   if (!is_one) value.refuse();
@@ -175,7 +152,6 @@ double number_of(const Option& option, const Value& value) {
 }
 
 uint64_t whole_of(const Option& option, const Arguments& all, const Value& value) {
-  if (option.kind == Kind::kSize && value.is_text()) return parse_size(value.name, value.text());
   const uint64_t number = all.whole(value.name, value.expected).value_or(0);
   const bool is_size = option.kind == Kind::kSize;
   const bool is_one = is_size ? number > 0 : is_within(option, static_cast<double>(number));
@@ -183,18 +159,48 @@ uint64_t whole_of(const Option& option, const Arguments& all, const Value& value
   return number;
 }
 
-std::string checked_text(const Option& option, const Value& value) {
-  if (option.kind == Kind::kFile) {
-    const std::optional<std::string> path = path_from(value.name, value.given);
-    if (!path) refuse_type(value.name, value.expected, value.given);
-    if (!path->ends_with(".vhc")) value.refuse();
-    return *path;
+std::string path_of_certificate(const Value& value) {
+  const std::optional<std::string> path = path_from(value.name, value.given);
+  if (!path) refuse_type(value.name, value.expected, value.given);
+  if (!path->ends_with(".vhc")) value.refuse();
+  return *path;
+}
+
+/// Whether a value is read as the command line has it.
+bool is_as_typed(const Option& option, const Value& value) {
+  switch (option.kind) {
+    case Kind::kUnit:
+    case Kind::kChoice:
+    case Kind::kShare:
+    case Kind::kPercentile:
+      return true;
+    default:
+      return option.kind == Kind::kSize && value.is_text();
   }
+}
+
+/// A number is a share, or per cent; a text of one says so itself: "99.5%".
+std::string typed_text(const Option& option, const Value& value) {
+  const bool is_part = option.kind == Kind::kShare || option.kind == Kind::kPercentile;
+  if (is_part && !value.is_text())
+    return shortest_decimal(number_from(value.name, value.expected, value.given));
   std::string text = value.text();
-  const std::vector<std::string>& known = option.choices;
-  const bool is_default = text.empty() && option.kind == Kind::kChoice;
-  if (!is_default && std::find(known.begin(), known.end(), text) == known.end()) value.refuse();
-  return text;
+  if (!is_part || text.ends_with('%')) return text;
+  if (option.kind == Kind::kShare) value.refuse();
+  refuse_type(value.name, value.expected, value.given);
+}
+
+/// A default, such as 'refuse', may be none of the command line's choices.
+void read_as_typed(const Option& option, const Value& value, Request& asked) {
+  const std::string text = typed_text(option, value);
+  const bool is_default = text.empty() || "'" + text + "'" == option.none;
+  if (option.kind == Kind::kChoice && is_default) return;
+  try {
+    put(option, {value.name, std::span(&text, 1)}, asked);
+  } catch (const UsageError&) {
+    if (option.kind == Kind::kPercentile) throw;  // it may tell 0.95 from 95
+    value.refuse();
+  }
 }
 
 // Rows that Python reads by a rule of its own.
@@ -258,17 +264,6 @@ void read_transform(const Value& value, Question& question) {
   }
 }
 
-/// Reads a choice that the program knows by a rule of its own. The default, such as 'refuse', may
-/// be none of the program's choices.
-void read_choice(const char* name, const Value& value, Request& asked) {
-  const Option& option = *option_of(name);
-  const std::string text = value.text();
-  if (text.empty() || "'" + text + "'" == option.none) return;
-  const std::vector<std::string>& known = option.choices;
-  if (std::find(known.begin(), known.end(), text) == known.end()) value.refuse();
-  put(option, {value.name, std::span(&text, 1)}, asked);
-}
-
 struct OwnRow {
   std::string_view name;
   const char* expected;
@@ -279,11 +274,6 @@ const OwnRow* own_row(std::string_view name) {
   static const OwnRow rows[] = {
       {"max", "",
        [](const Value& value, Functions f, Request& asked) { read_max(value, f, asked.question); }},
-      {"area", "",
-       [](const Value& value, Functions, Request& asked) {
-         asked.question.area = share_from(value);
-         asked.question.area_requested = py::cast<std::string>(py::str(value.given));
-       }},
       {"field-tol",
        "True or False, or how narrow each face's bounds are to be: a positive number, a fraction "
        "of A's diagonal, or a string such as '0.1%' or '0.01abs'",
@@ -294,13 +284,6 @@ const OwnRow* own_row(std::string_view name) {
          asked.question.points_a = sides.a;
          asked.question.points_b = sides.b;
        }},
-      {"polygons",
-       "'refuse', 'fan' for the fan of what has no triangulation, or 'any' for all triangulations",
-       [](const Value& value, Functions, Request& asked) {
-         read_choice("polygons", value, asked);
-       }},
-      {"bodies", "'solid', or 'all' for everything as it lies",
-       [](const Value& value, Functions, Request& asked) { read_choice("bodies", value, asked); }},
       {"transform", "", [](const Value& value, Functions, Request& asked) {
          read_transform(value, asked.question);
        }}};
@@ -321,7 +304,7 @@ struct ValueReader {
     if constexpr (std::is_same_v<T, bool>)
       return all.flag(given.name);
     else if constexpr (std::is_same_v<T, std::string>)
-      return checked_text(option, given);
+      return path_of_certificate(given);
     else if constexpr (std::is_same_v<T, Length>)
       return length_from(given, is_tolerance ? Length::Of::kDiagonal : Length::Of::kFiles);
     else if constexpr (std::is_same_v<T, double>)
@@ -359,6 +342,8 @@ void read(const Option& option, Functions function, const Arguments& all, Reques
   const OwnRow* own = own_row(option.name);
   if (own != nullptr) {
     own->read(value, function, asked);
+  } else if (is_as_typed(option, value)) {
+    read_as_typed(option, value, asked);
   } else {
     fill(option, asked, ValueReader{option, all, value});
   }
@@ -370,10 +355,6 @@ std::string named(std::string_view option) {
   if (option == "face-max") return "limits of A's faces";
   const Option* row = option_of(option);
   return row == nullptr ? std::string(option) : keyword_name(*row);
-}
-
-bool is_among(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 template <class Add>
