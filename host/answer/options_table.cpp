@@ -23,6 +23,10 @@ Question& part_of<Question>(Request& asked) {
   return asked.question;
 }
 template <>
+Stated& part_of<Stated>(Request& asked) {
+  return asked.question;
+}
+template <>
 ReadLimits& part_of<ReadLimits>(Request& asked) {
   return asked.question.limits;
 }
@@ -158,7 +162,7 @@ std::vector<Option> options_of_the_question() {
       {.name = "tol",
        .kind = Kind::kTolerance,
        .group = Group::kQuestion,
-       .target = to<&Question::tolerance>,
+       .target = to<&Stated::tolerance>,
        .uses = {{kDistance | kMetrics, tolerance, "1e-6"},
                 {kGate, tolerance, "1e-7"},
                 {kDemo, tolerance, "1e-8"},
@@ -180,7 +184,7 @@ std::vector<Option> options_of_the_question() {
       {.name = "part",
        .kind = Kind::kPart,
        .group = Group::kQuestion,
-       .target = to<&Question::part>,
+       .target = to<&Stated::part>,
        .uses = {{kDistance,
                  "Of A's faces part I alone, from 0, of N; 'merge' joins the answers of all "
                  "parts"}}},

@@ -81,22 +81,21 @@ std::vector<Rule> rules_of_placement() {
 }
 
 std::vector<Rule> rules_of_limits() {
-  return {
-      {{"known-lower"},
-       without({"part"}),
-       "{known-lower}: is what other parts have shown: ask for a {part}"},
-      {{"face-max-b"},
-       without({"symmetric"}),
-       "{face-max-b}: limits of B's faces are asked about by {symmetric} alone"},
-      {{"polygons"},
-       [](const Request& asked) {
-         return asked.question.limits.any_triangulation && is_of_triangles(asked);
-       },
-       "{polygons} any: areas and certificates are of one triangulation: no metrics, {stats}, "
-       "{signed}, {bands}, {area}, {report}, {figures-csv} or {certificate}"},
-      {{"field"},
-       writes_points_as_glb,
-       "{field}: points with their distances are written as .ply, not as .glb"}};
+  return {{{"known-lower"},
+           without({"part"}),
+           "{known-lower}: is what other parts have shown: ask for a {part}"},
+          {{"face-max-b"},
+           without({"symmetric"}),
+           "{face-max-b}: limits of B's faces are asked about by {symmetric} alone"},
+          {{"polygons"},
+           [](const Request& asked) {
+             return asked.question.limits.any_triangulation && is_of_triangles(asked);
+           },
+           "{polygons} any: areas and certificates are of one triangulation: no metrics, {stats}, "
+           "{signed}, {bands}, {area}, {report}, {figures-csv} or {certificate}"},
+          {{"field"},
+           writes_points_as_glb,
+           "{field}: points with their distances are written as .ply, not as .glb"}};
 }
 
 std::vector<Rule> rules_of_figures() {
@@ -177,9 +176,7 @@ constexpr QuestionRule kQuestionRules[] = {
     {[](const Question& q) { return q.part && q.align; },
      "{part}: is of A where it lies: find the place once, by {align} and {save-transform}, and "
      "give it to each part by {transform}"},
-    {[](const Question& q) {
-       return q.part && (q.symmetric || q.worst || q.asks_for_cells());
-     },
+    {[](const Question& q) { return q.part && (q.symmetric || q.worst || q.asks_for_cells()); },
      "{part}: one direction's interval is all that is to be had of a part: no {symmetric}, "
      "{stats}, {signed}, {bands}, {field-tol}, {field}, {image}, {report}, {figures-csv}, "
      "{points-out} or {certificate}"}};
@@ -187,8 +184,8 @@ constexpr QuestionRule kQuestionRules[] = {
 const std::vector<Rule>& rules() {
   static const std::vector<Rule> known = [] {
     std::vector<Rule> all;
-    for (auto* some : {rules_of_placement, rules_of_limits, rules_of_figures,
-                       rules_of_pictures, rules_of_simplify})
+    for (auto* some : {rules_of_placement, rules_of_limits, rules_of_figures, rules_of_pictures,
+                       rules_of_simplify})
       for (Rule& rule : some()) all.push_back(std::move(rule));
     return all;
   }();

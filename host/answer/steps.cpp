@@ -102,14 +102,11 @@ std::vector<Note> notes_on_units(const Mesh& a, const Units& units) {
 Answer unread_answer(const Question& question) {
   check_question(question);
   Answer known;
-  known.command = question.command;
-  known.words = question.words;
+  static_cast<Stated&>(known) = question;
   known.started = utc_now();
   known.host = host_name();
-  known.part = question.part;
   known.inputs[0].path = question.file_a;
   known.inputs[1].path = question.file_b;
-  known.tolerance = question.tolerance;
   if (question.max)
     known.max = Asked{.length = *question.max,
                       .limit = {},

@@ -83,19 +83,15 @@ struct Waits {
 };
 
 /// The question about a pair of meshes, and its answer.
-struct Answer {
+struct Answer : Stated {
   std::string version = program_version();
-  std::string command;                     ///< "distance", "gate", "metrics" or "demo"
-  std::vector<std::string> words;          ///< the words typed after the program's name
   std::string started, host;               ///< UTC in ISO 8601; the machine's name
   std::array<Input, 2> inputs;             ///< A, B
   std::optional<PlacedInput> placed = {};  ///< A is elsewhere than its file has it
   std::vector<Note> notes;                 ///< the notes on the pair
   std::string unit;  ///< every length's; empty: the files' own, whatever it is
-  Length tolerance;  ///< a fraction is of A's diagonal in both directions
   std::optional<Asked> max;
-  std::optional<PartOf> part;  ///< a_to_b covers that part alone
-  uint64_t parts = 0;          ///< the answers of so many parts are merged in it; 0: it is of none
+  uint64_t parts = 0;  ///< the answers of so many parts are merged in it; 0: it is of none
   Report a_to_b;
   std::optional<Report> b_to_a;                    ///< set for a symmetric run
   std::optional<SurveyResult> survey_a, survey_b;  ///< A's; B's in the reverse direction

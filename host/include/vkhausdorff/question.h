@@ -38,10 +38,15 @@ struct Budget {
   uint64_t memory_bytes = 0;  ///< SolveOptions::memory_bytes
 };
 
-struct Question {
-  std::string command;             ///< Answer::command
-  std::vector<std::string> words;  ///< Answer::words; empty: no command line asked it
+/// What an answer repeats of its question.
+struct Stated {
+  std::string command;             ///< "distance", "gate", "metrics" or "demo"
+  std::vector<std::string> words;  ///< those typed after the program's name; empty: none were
+  Length tolerance{.requested = "1e-6", .number = 1e-6};  ///< a fraction is of A's diagonal
+  std::optional<PartOf> part;  ///< the part of A that is asked about, alone, in one direction
+};
 
+struct Question : Stated {
   // The meshes.
   std::string file_a, file_b;  ///< both empty: the built-in pair
   std::string unit;            ///< the unit of files that do not name one; empty: unknown
@@ -55,9 +60,7 @@ struct Question {
   bool hashes = false;                      ///< Input::sha256 is wanted
 
   // The distance.
-  Length tolerance{.requested = "1e-6", .number = 1e-6};
   bool symmetric = false;             ///< both directions
-  std::optional<PartOf> part;         ///< the part of A, alone
   std::optional<Length> known_lower;  ///< the bound that other parts have shown
 
   // A limit.
