@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -382,6 +383,31 @@ std::string keywords_text(Functions function, const std::vector<std::string>& ow
         (text.empty() ? "" : ", ") + keyword_name(option) + "=" + keyword_default(option, function);
   });
   return text;
+}
+
+namespace {
+
+bool has_word(const std::string& text, const std::string& word) {
+  const auto is_inner = [&](size_t at) {
+    return at < text.size() &&
+           (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_');
+  };
+  for (size_t at = 0; (at = text.find(word, at)) != std::string::npos; ++at) {
+    if (!(at > 0 && is_inner(at - 1)) && !is_inner(at + word.size())) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string more_text(Functions function, const std::string& text) {
+  std::string more;
+  for_each_keyword(function, {}, [&](const Option& option) {
+    const std::string name = keyword_name(option);
+    if (option.uses.empty() || has_word(text, name)) return;
+    more += "\n\n" + name + ": " + option.uses.front().help;
+  });
+  return more;
 }
 
 Request request_of(Functions function, const char* command, const Arguments& given) {

@@ -17,6 +17,9 @@ Signature signature_of(Functions function, const char* name, const std::vector<s
 /// The keywords with their defaults, but for `own`, as a signature has them: "tol=1e-6, ...".
 std::string keywords_text(Functions function, const std::vector<std::string>& own);
 
+/// What the table says of keywords that the text of a function does not name, as more of that text.
+std::string more_text(Functions function, const std::string& text);
+
 /// Reads what was given of these keywords, but for the device. Numbers are those of the arrays: a
 /// tolerance is a fraction of A's diagonal, and other lengths are in the coordinates' unit. Strings
 /// are as on the command line, without units, which arrays do not have. `command`: the name of the

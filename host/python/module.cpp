@@ -88,7 +88,8 @@ void define_distance(py::module_& m) {
   m.def("distance", distance,
         documented("distance(va, fa, vb, fb, tol=1e-6, symmetric=False, *, progress=None, "
                    "on_progress=None, ",
-                   kPyDistance, {"tol", "symmetric"}, kDistanceText)
+                   kPyDistance, {"tol", "symmetric"},
+                   (kDistanceText + more_text(kPyDistance, kDistanceText)).c_str())
             .c_str());
 }
 
