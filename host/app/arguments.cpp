@@ -54,13 +54,18 @@ void make_sense(Request& asked) {
   ask_for_pictures(asked);
 }
 
-/// Refuses an output that names no file.
-void check_named(const Words& words) {
-  for (const char* option : {"--json=", "--junit=", "--csv="}) {
-    if (std::find(words.begin(), words.end(), option) == words.end()) continue;
-    std::string message(option);
-    message.append("'': expected the name of a file, as in ").append(option).append("answer.txt");
-    throw UsageError(message);
+/// Refuses an option whose value is empty: the parser would take the next word for it.
+void check_values(const Words& words) {
+  for (const std::string& word : words) {
+    if (!word.starts_with("--") || !word.ends_with('=')) continue;
+    const Option* option = option_of(std::string_view(word).substr(2, word.size() - 3));
+    if (option == nullptr) continue;
+    const std::string shape = shape_of(*option);
+    const bool is_file = option->kind == Kind::kFile || shape.starts_with('[');
+    throw UsageError(word + "'': expected " +
+                     (is_file         ? "the name of a file, as in " + word + "answer.txt"
+                      : shape.empty() ? "true or false"
+                                      : shape + ", as in " + word + shape));
   }
 }
 
@@ -76,7 +81,7 @@ CommandLine understand(const Words& given) {
     words.erase(words.begin());
     words.emplace_back("--help");
   }
-  check_named(words);
+  check_values(words);
   Program program;
   try {
     program.app().parse(Words(words.rbegin(), words.rend()));  // CLI11 wants them reversed

@@ -39,10 +39,8 @@ CLI::Option* added(const Option& option, const Use& use, CLI::App& app, TypedOpt
   const bool has_text = *option.shape != '\0';
   if (option.kind == Kind::kFlag && has_text) return app.add_flag(name, typed.text, help);
   if (option.kind == Kind::kFlag) return app.add_flag(name, typed.flag, help);
-  CLI::Option* made = has_commas(option) ? app.add_option(name, typed.texts, help)
-                                         : app.add_option(name, typed.text, help);
-  if (has_commas(option)) made->delimiter(',')->allow_extra_args(false);
-  return made->check(check_value);
+  CLI::Option* made = app.add_option(name, typed.text, help)->check(check_value);
+  return has_commas(option) ? made->join(',') : made;
 }
 
 /// A command with few options shows all of them at once.
@@ -86,12 +84,13 @@ void put_typed(const Option& option, const TypedOption& typed, Commands command,
     asked.given.erase(option.name);
     return;
   }
-  std::vector<std::string> texts = typed.texts;
-  const bool is_json = option.kind == Kind::kFlag && *option.shape != '\0';
-  if (option.kind == Kind::kFlag && !is_json) {
+  std::vector<std::string> texts{typed.text};
+  if (option.kind == Kind::kFlag && *option.shape == '\0') {
     texts = {typed.flag ? "true" : "false"};  // --stats=false
-  } else if (!has_commas(option) && !(is_json && typed.text == kLone)) {
-    texts = {typed.text};
+  } else if (option.kind == Kind::kFlag && typed.text == kLone) {
+    texts.clear();
+  } else if (has_commas(option)) {
+    texts = CLI::detail::split(typed.text, ',');
   }
   put(option, {said, texts}, asked);
 }

@@ -15,8 +15,7 @@ namespace vkh {
 struct TypedOption {
   CLI::Option* option = nullptr;
   bool flag = false;
-  std::string text;
-  std::vector<std::string> texts;  ///< between commas
+  std::string text;  ///< several between commas
 };
 
 /// A command with what was typed for it.

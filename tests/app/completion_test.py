@@ -4,6 +4,7 @@
 usage: completion_test.py PROGRAM SOURCE PRINT_OPTIONS
 """
 
+import json
 import pathlib
 import re
 import shutil
@@ -21,10 +22,11 @@ def helped(command):
     return set(re.findall(rf"^ +(?:-\w,)?({OPTION})", text, re.MULTILINE))
 
 
-def completed(command):
-    """Bash's completions behind `vkhausdorff COMMAND --`."""
+def completed(command, *typed):
+    """Bash's completions behind `vkhausdorff COMMAND`, and these words or `--`."""
+    words = " ".join(f"'{word}'" for word in typed or ("--",))
     script = f"""source '{SOURCE}/tools/completion/vkhausdorff.bash'
-        COMP_WORDS=(vkhausdorff {command} --) COMP_CWORD=2
+        COMP_WORDS=(vkhausdorff {command} {words}) COMP_CWORD={1 + (len(typed) or 1)}
         _vkhausdorff; printf '%s\\n' "${{COMPREPLY[@]}}" """
     done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, timeout=60, check=True)
     return set(done.stdout.split())
@@ -61,6 +63,22 @@ class Options(unittest.TestCase):
         for command in COMMANDS:
             with self.subTest(command):
                 self.assertEqual(completed(command), helped(command))
+
+    def test_bash_offers_all_devices_where_it_may_be_several(self):
+        for command in COMMANDS:
+            if "--device" not in helped(command):
+                continue
+            with self.subTest(command):
+                found = completed(command, "--device", "")
+                self.assertEqual(found, {"gpu", "cpu", "all"} if command in ("distance", "batch") else {"gpu", "cpu"})
+
+    def test_rules_name_options_of_the_table(self):
+        table = json.loads(subprocess.run([PRINT_OPTIONS], capture_output=True, text=True, timeout=60, check=True).stdout)
+        known = {option["name"] for option in table["options"]} | {"option"}
+        text = (SOURCE / "host/answer/rules.cpp").read_text()
+        braced, quoted = set(re.findall(r"\{([a-z-]+)\}", text)), set(re.findall(r'"([a-z]+(?:-[a-z]+)*)"', text))
+        self.assertGreater(len(braced), 30)
+        self.assertLessEqual(braced | quoted, known)
 
     def test_zsh_knows_them(self):
         text = (SOURCE / "tools/completion/_vkhausdorff").read_text()

@@ -7,6 +7,7 @@
 
 #include "host/answer/options_table.h"
 #include "host/answer/rules.h"
+#include "host/answer/steps.h"
 #include "host/app/arguments.h"
 #include "host/app/program.h"
 #include "vkhausdorff/error.h"
@@ -176,4 +177,44 @@ TEST_CASE("a rule names options as its outlet does") {
   CHECK(message(with_dashes) == "--scale: allows a --transform to stretch A; there is none");
   CHECK(message([](std::string_view option) { return std::string(option); }) ==
         "scale: allows a transform to stretch A; there is none");
+}
+
+namespace {
+
+template <class Act>
+std::string refusal(const Act& act) {
+  try {
+    act();
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a rule of questions is the same for a command line, a row of a list and C++") {
+  const std::string rule = ": figures are of both directions and no verdict: leave out ";
+  const Words words{"batch", "list.csv", "--out", "out.jsonl", "--metrics"};
+  Words more = words;
+  more.insert(more.end(), {"--max", "1mm"});
+  CHECK(refusal([&] { (void)understand(more); }).starts_with("--metrics" + rule + "--max"));
+  Request row = understand(words).asked;
+  CHECK(refusal([&] { (void)unread_answer(row.question); }).empty());
+  const std::string cell = "1mm";
+  put(*option_of("max"), {"max", std::span(&cell, 1)}, row);
+  CHECK(refusal([&] { (void)unread_answer(row.question); }).starts_with("--metrics" + rule));
+  row.question.words.clear();
+  CHECK(refusal([&] { (void)unread_answer(row.question); }).starts_with("metrics" + rule + "max"));
+}
+
+TEST_CASE("an empty value behind the sign never takes the next word") {
+  for (const Option& option : options()) {
+    if (use_of(option, kDistance) == nullptr) continue;
+    const std::string word = with_dashes(option.name) + "=";
+    const std::string message = refusal([&] {
+      (void)understand({"distance", "a", "b", word, "1"});
+    });
+    CHECK_MESSAGE(message.starts_with(word + "'': expected "), message);
+  }
 }

@@ -32,7 +32,21 @@ def short(text):
     return (text[0].lower() + text[1:] if not text[:2].isupper() else text).replace("'", "").replace("[", "(").replace("]", ")")
 
 
+def choices(option, command):
+    use = uses_of(option, command)
+    return option["choices"] + ([use["more"]] if use["more"] else [])
+
+
 # bash
+
+
+def bash_choices(option):
+    """The words; those of some commands alone are printed where the command is one of these."""
+    words = " ".join(option["choices"])
+    for use in option["uses"]:
+        if use["more"]:
+            words += f' $([[ " {" ".join(use["of"])} " != *" $command "* ]] || echo {use["more"]})'
+    return words
 
 
 def bash(table):
@@ -46,7 +60,7 @@ def bash(table):
         if option["kind"] == "flag" or not option["uses"]:
             continue
         if option["choices"]:
-            lines.append(f'    --{option["name"]}) mapfile -t COMPREPLY < <(compgen -W "{" ".join(option["choices"])}" -- "$current"); return ;;')
+            lines.append(f'    --{option["name"]}) mapfile -t COMPREPLY < <(compgen -W "{bash_choices(option)}" -- "$current"); return ;;')
         elif option["kind"] not in FILES | {"folder"}:
             free.append(f"--{option['name']}")
     lines += [f"    {' | '.join(free)}) return ;;", "  esac", "  case $command in"]
@@ -62,20 +76,20 @@ def bash(table):
 # zsh
 
 
-def zsh_value(option):
+def zsh_value(option, command):
     if option["kind"] == "folder":
         return ":folder:_files -/"
     if option["kind"] in FILES:
         return ":file:_files"
     if option["choices"]:
-        return f":{option['name']}:({' '.join(option['choices'])})"
+        return f":{option['name']}:({' '.join(choices(option, command))})"
     return f":{option['shape'].lower()}:"
 
 
 def zsh_option(option, command):
     text = short(uses_of(option, command)["help"])
     if option["kind"] != "flag":
-        return f"'--{option['name']}[{text}]{zsh_value(option)}'"
+        return f"'--{option['name']}[{text}]{zsh_value(option, command)}'"
     return f"'--{option['name']}=-[{text}]::file:_files'" if option["shape"] else f"'--{option['name']}[{text}]'"
 
 

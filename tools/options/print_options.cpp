@@ -77,7 +77,8 @@ Json json_of(const Option& option) {
     uses.push_back({{"of", names_of(use.of)},
                     {"help", use.help},
                     {"otherwise", use.otherwise},
-                    {"required", use.required}});
+                    {"required", use.required},
+                    {"more", use.more}});
   for (const NamedFunction& function : kFunctions) {
     if ((option.functions & function.bit) != 0)
       functions[function.name] = keyword_default(option, function.bit);
