@@ -426,4 +426,9 @@ Request request_of(Functions function, const char* command, const Arguments& giv
   return asked;
 }
 
+std::string key_of_keywords(Functions function, const py::kwargs& given) {
+  const Signature signature = signature_of(function, "_key", {}, 0, 0);
+  return key_text(request_of(function, "distance", Arguments(signature, py::args(), given)));
+}
+
 }  // namespace vkh::python

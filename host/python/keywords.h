@@ -26,4 +26,7 @@ std::string more_text(Functions function, const std::string& text);
 /// function in an answer.
 Request request_of(Functions function, const char* command, const Arguments& given);
 
+/// key_text() of these keywords, for tests: it is that of a command line that says the same.
+std::string key_of_keywords(Functions function, const pybind11::kwargs& given);
+
 }  // namespace vkh::python

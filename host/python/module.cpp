@@ -117,6 +117,10 @@ void define_devices(py::module_& m) {
         "memory_bytes, usable, and reason, why it is not usable, or None.");
 }
 
+void define_key(py::module_& m) {
+  m.def("_key", key_of_keywords, "_key(function, **keywords)\n--\n\nFor tests.");
+}
+
 void define_gate(py::module_& m) {
   m.def("gate", gate,
         documented("gate(a, b, max, *, progress=None, on_progress=None, ", kPyGate, {"max"},
@@ -281,6 +285,7 @@ PYBIND11_MODULE(_core, m) {
   define_distance(m);
   define_devices(m);
   define_gate(m);
+  define_key(m);
   define_metrics(m);
   define_align(m);
   define_closest(m);

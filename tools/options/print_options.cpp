@@ -1,9 +1,13 @@
 // Prints the options table and the commands as JSON, for tools/options/make_pages.py.
+//
+//   vkh_print_options [--key WORDS...]    --key: the key of the pairs of that command line, instead
 #include <cstdio>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "host/answer/options_table.h"
 #include "host/app/commands.h"
+#include "host/app/program.h"
 
 namespace vkh {
 namespace {
@@ -72,7 +76,7 @@ Json names_of(Commands bits) {
 }
 
 Json json_of(const Option& option) {
-  Json uses = Json::array(), functions = Json::object();
+  Json uses = Json::array(), functions = Json::object(), bits = Json::object();
   for (const Use& use : option.uses)
     uses.push_back({{"of", names_of(use.of)},
                     {"help", use.help},
@@ -80,8 +84,9 @@ Json json_of(const Option& option) {
                     {"required", use.required},
                     {"more", use.more}});
   for (const NamedFunction& function : kFunctions) {
-    if ((option.functions & function.bit) != 0)
-      functions[function.name] = keyword_default(option, function.bit);
+    if ((option.functions & function.bit) == 0) continue;
+    functions[function.name] = keyword_default(option, function.bit);
+    bits[function.name] = function.bit;
   }
   return {{"name", option.name},
           {"kind", name_of(option.kind)},
@@ -92,6 +97,7 @@ Json json_of(const Option& option) {
           {"column", option.is_column},
           {"keyword", keyword_name(option)},
           {"functions", functions},
+          {"bits", bits},
           {"unlike", option.unlike},
           {"own", std::holds_alternative<Own>(option.target)}};
 }
@@ -106,8 +112,15 @@ Json json_of(const Command& command) {
 }  // namespace
 }  // namespace vkh
 
-int main() {
+int main(int argc, char** argv) {
   using namespace vkh;
+  if (argc > 1 && argv[1] == std::string_view("--key")) {
+    Program program;
+    program.app().parse(std::vector<std::string>(std::reverse_iterator(argv + argc),
+                                                 std::reverse_iterator(argv + 2)));
+    std::puts(key_text(program.asked()).c_str());
+    return 0;
+  }
   Json all{{"commands", Json::array()}, {"options", Json::array()}};
   for (const Command& command : commands()) all["commands"].push_back(json_of(command));
   for (const Option& option : options()) all["options"].push_back(json_of(option));
