@@ -181,11 +181,8 @@ std::vector<Solver*> solvers_of(const Session& session) {
 }
 
 std::future<Session> begin_opening(const Question& question) {
-  EngineOptions engine = question.engine;
-  // With a limit, pipelines for cells are made once it is decided.
-  const bool apart = question.max && !question.area;
-  engine.cells = question.asks_for_cells() && !apart;
-  return begin_now([selector = question.device, several = question.several_devices, engine,
+  return begin_now([selector = question.device, several = question.several_devices,
+                    engine = engine_of(question),
                     cache = question.caches ? user_cache_folder() : std::filesystem::path()] {
     return open_session(selector, several, engine, cache);
   });

@@ -23,7 +23,6 @@ SolveOptions heard_options(const Question& question, const Observer& observer,
   SolveOptions options = solve_options(question, answer);
   if (observer.left_s) options.time_limit_s = std::max(observer.left_s(), kLeastTime);
   options.progress = observer.search;
-  options.engine.cells = question.asks_for_cells();
   return options;
 }
 

@@ -13,6 +13,7 @@
 #include "host/base/rounding.h"
 #include "host/base/system.h"
 #include "host/read/transform.h"
+#include "host/solve/switches.h"
 #include "host/survey/statistics.h"
 #include "vkhausdorff/align.h"
 #include "vkhausdorff/error.h"
@@ -388,6 +389,15 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   return farthest;
 }
 
+EngineOptions engine_of(const Question& question) {
+  const Length& tolerance = question.tolerance;
+  EngineOptions engine = question.engine;
+  engine.fine = tolerance.of == Length::Of::kDiagonal && tolerance.number < kFineTolerance;
+  engine.cells = question.asks_for_cells();
+  engine.coverage = question.verify;
+  return engine;
+}
+
 SolveOptions run_options(const Question& question) {
   return {.time_limit_s = question.budget.time_limit_s,
           .wave_limit = question.budget.wave_limit,
@@ -397,12 +407,12 @@ SolveOptions run_options(const Question& question) {
 
 SolveOptions solve_options(const Question& question, const Answer& known) {
   SolveOptions options = run_options(question);
+  options.engine = engine_of(question);
   options.tolerance_is_absolute = question.tolerance.of != Length::Of::kDiagonal;
   options.tolerance =
       options.tolerance_is_absolute ? known.a_to_b.tolerance : question.tolerance.number;
   // The survey decides a question about area.
   if (known.max && !known.max->area) options.limit = known.max->limit;
-  options.engine.coverage = question.verify;
   // The surveys bound each distance: a search would narrow the largest one alone.
   if (question.metrics && !question.metrics->asks_for({"hausdorff"}))
     options.wave_limit = std::min(options.wave_limit, 1u);

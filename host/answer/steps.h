@@ -78,7 +78,11 @@ double take_meshes(const Question& question, const ReadMesh& a, const ReadMesh& 
 /// names --range for ends that are reversed, or cannot be converted.
 Enclosure range_in_files(const std::array<Length, 2>& range, const Answer& answer);
 
-/// What a question has for each of its runs, whatever the meshes are.
+/// The pipelines that each run of a question takes, so that one set serves search, survey and
+/// proof; whether a tolerance that is a length is fine is not known before the meshes.
+EngineOptions engine_of(const Question& question);
+
+/// The budget of each run of a question, and the switches that were asked for.
 SolveOptions run_options(const Question& question);
 
 /// The options for an interval as narrow as such an answer needs. `known` has its meshes.

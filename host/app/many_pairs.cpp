@@ -11,6 +11,7 @@
 #include "host/answer/merge_parts.h"
 #include "host/answer/rank.h"
 #include "host/answer/session.h"
+#include "host/answer/steps.h"
 #include "host/answer/tables.h"
 #include "host/app/outputs.h"
 #include "host/base/output_file.h"
@@ -133,7 +134,7 @@ BatchJob batch_of(const Request& request, PairList& list) {
   batch.devices.lanes = asked.lanes;
   batch.devices.devices = selectors_of(question.device);
   if (question.caches) batch.devices.cache_folder = user_cache_folder();
-  batch.devices.first = question.engine;
+  batch.devices.first = engine_of(question);
   batch.read_ahead_bytes = asked.read_ahead_bytes;
   return batch;
 }

@@ -36,7 +36,7 @@ FlowQuestion FlowQuestion::with_ahead() && {
 
 Flow::Flow(FlowQuestion asked) : asked_(std::move(asked).with_ahead()) {
   StreamOptions devices = asked_.devices;
-  devices.first = asked_.question.engine;
+  devices.first = engine_of(asked_.question);
   devices.waiting = asked_.ahead;  // so that no thread ever waits in push()
   stream_.emplace(devices, [this](StreamResult&& result) { take_result(std::move(result)); });
   const std::lock_guard lock(alive().mutex);
