@@ -62,10 +62,10 @@ void check_values(const Words& words) {
     if (option == nullptr) continue;
     const std::string shape = shape_of(*option);
     const bool is_file = option->kind == Kind::kFile || shape.starts_with('[');
-    throw UsageError(word + "'': expected " +
-                     (is_file         ? "the name of a file, as in " + word + "answer.txt"
-                      : shape.empty() ? "true or false"
-                                      : shape + ", as in " + word + shape));
+    std::string expected = shape.empty() ? "true or false" : shape + ", as in " + word;
+    expected += shape;
+    if (is_file) expected = "the name of a file, as in " + word + "answer.txt";
+    throw UsageError(word + "'': expected " + expected);
   }
 }
 

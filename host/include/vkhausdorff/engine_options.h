@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "vkhausdorff/needs_cpp20.h"
+
 namespace vkh {
 
 struct EngineOptions {
