@@ -54,18 +54,20 @@ void make_sense(Request& asked) {
   ask_for_pictures(asked);
 }
 
+std::string expected_behind(const std::string& word, const Option& option) {
+  const std::string shape = shape_of(option);
+  if (option.kind == Kind::kFile || shape.starts_with('['))
+    return "the name of a file, as in " + word + "answer.txt";
+  return shape.empty() ? "true or false" : shape + ", as in " + word + shape;
+}
+
 /// Refuses an option whose value is empty: the parser would take the next word for it.
 void check_values(const Words& words) {
   for (const std::string& word : words) {
     if (!word.starts_with("--") || !word.ends_with('=')) continue;
     const Option* option = option_of(std::string_view(word).substr(2, word.size() - 3));
     if (option == nullptr) continue;
-    const std::string shape = shape_of(*option);
-    const bool is_file = option->kind == Kind::kFile || shape.starts_with('[');
-    std::string expected = shape.empty() ? "true or false" : shape + ", as in " + word;
-    expected += shape;
-    if (is_file) expected = "the name of a file, as in " + word + "answer.txt";
-    throw UsageError(word + "'': expected " + expected);
+    throw UsageError(word + "'': expected " + expected_behind(word, *option));
   }
 }
 
