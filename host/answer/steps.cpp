@@ -392,9 +392,10 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
 EngineOptions engine_of(const Question& question) {
   const Length& tolerance = question.tolerance;
   EngineOptions engine = question.engine;
-  engine.fine = tolerance.of == Length::Of::kDiagonal && tolerance.number < kFineTolerance;
-  engine.cells = question.asks_for_cells();
-  engine.coverage = question.verify;
+  const bool is_fine = tolerance.of == Length::Of::kDiagonal && tolerance.number < kFineTolerance;
+  engine.fine = engine.fine || is_fine;
+  engine.cells = engine.cells || question.asks_for_cells();
+  engine.coverage = engine.coverage || question.verify;
   return engine;
 }
 

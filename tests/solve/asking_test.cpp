@@ -166,3 +166,13 @@ TEST_CASE("what is wrong is thrown by answer(), each time") {
 }
 
 }  // namespace
+
+TEST_CASE("what a question's engine has on stays on in its runs") {
+  Question question;
+  CHECK(!engine_of(question).fine);
+  question.engine = {.fine = true, .cells = true, .coverage = true};
+  const EngineOptions engine = engine_of(question);
+  CHECK(engine.fine);
+  CHECK(engine.cells);
+  CHECK(engine.coverage);
+}
