@@ -3,7 +3,7 @@ add_library(vkh_cold INTERFACE)
 target_compile_options(vkh_cold INTERFACE $<$<AND:$<CONFIG:Release>,$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>>:-Og>)
 if(VKH_SANITIZE)
   target_compile_options(vkh_cold INTERFACE -O0)
-  set(VKH_COOL_ROOMS show survey solve)  # -Og takes 40 % less there; the readers' tests run for twice as long by it
+  set(VKH_COOL_ROOMS show survey solve)  # -Og takes 30 to 60 % less there, but slows readers' tests (docs/log/build.md)
 endif()
 
 if(NOT VKH_UNITY)  # what most files of the host include: with more in it, it costs more than it saves (docs/log/build.md)

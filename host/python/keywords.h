@@ -17,7 +17,8 @@ Signature signature_of(Functions function, const char* name, const std::vector<s
 /// The keywords with their defaults, but for `own`, as a signature has them: "tol=1e-6, ...".
 std::string keywords_text(Functions function, const std::vector<std::string>& own);
 
-/// What the table says of keywords that the text of a function does not name, as more of that text.
+/// Returns paragraphs for the keywords that the text of a function does not name, with the help of
+/// their rows.
 std::string more_text(Functions function, const std::string& text);
 
 /// Reads what was given of these keywords, but for the device. Numbers are those of the arrays: a

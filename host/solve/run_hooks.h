@@ -1,5 +1,5 @@
-// What the library gives a run besides its options: a survey of its pair, and bounds that rise
-// while it runs.
+// Callbacks that the library gives a run besides its options: a survey of the pair, and a known
+// lower bound that rises meanwhile.
 #pragma once
 
 #include "host/solve/cells.h"

@@ -12,7 +12,7 @@ import unittest
 from vkhausdorff import _core
 
 PRINT_OPTIONS = sys.argv[1]
-# Of each kind: values as Python has them, and as they are typed.
+# Each kind has values in pairs: as Python takes them, and as they are typed.
 SAMPLES = {"flag": [(True, None)], "length": [("0.1%", "0.1%"), ("0.2abs", "0.2abs")], "tolerance": [("0.1%", "0.1%"), ("1e-4", "1e-4")],
            "lengths": [(["0.1%", "0.3abs"], "0.1%,0.3abs"), (("0.2abs",), "0.2abs")], "percentile": [(90, "90"), ("0.5%", "0.5%")],
            "angle": [(10, "10deg"), (20.5, "20.5")], "size": [(2000, "2000"), ("1MiB", "1MiB")], "time": [(1, "1s"), (0.25, "250ms")],

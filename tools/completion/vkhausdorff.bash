@@ -18,7 +18,7 @@ _vkhausdorff() {
     --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
-    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu $([[ " distance " != *" $command "* ]] || echo all) $([[ " batch " != *" $command "* ]] || echo all)" -- "$current"); return ;;
+    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu $([[ " distance batch " != *" $command "* ]] || echo all)" -- "$current"); return ;;
     --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
     --enable) mapfile -t COMPREPLY < <(compgen -W "centroid parent_samples tolerance_cull thin u3 u4 warm_start group_walk shared_faces sort packet defer largest_first u3_paper split_twice wide multiwave" -- "$current"); return ;;
     --disable) mapfile -t COMPREPLY < <(compgen -W "centroid parent_samples tolerance_cull thin u3 u4 warm_start group_walk shared_faces sort packet defer largest_first u3_paper split_twice wide multiwave" -- "$current"); return ;;

@@ -43,9 +43,9 @@ def choices(option, command):
 def bash_choices(option):
     """The words; those of some commands alone are printed where the command is one of these."""
     words = " ".join(option["choices"])
-    for use in option["uses"]:
-        if use["more"]:
-            words += f' $([[ " {" ".join(use["of"])} " != *" $command "* ]] || echo {use["more"]})'
+    for more in sorted({use["more"] for use in option["uses"]} - {""}):
+        commands = " ".join(name for use in option["uses"] if use["more"] == more for name in use["of"])
+        words += f' $([[ " {commands} " != *" $command "* ]] || echo {more})'
     return words
 
 

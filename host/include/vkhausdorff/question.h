@@ -38,7 +38,7 @@ struct Budget {
   uint64_t memory_bytes = 0;  ///< SolveOptions::memory_bytes
 };
 
-/// What an answer repeats of its question.
+/// Answer repeats these members of its question.
 struct Stated {
   std::string command;             ///< "distance", "gate", "metrics" or "demo"
   std::vector<std::string> words;  ///< those typed after the program's name; empty: none were
