@@ -11,9 +11,9 @@
 namespace vkh {
 
 struct EngineOptions {
-  std::string preset;                 ///< see preset_names(); empty: default
-  std::vector<std::string> enabled;   ///< switch names, see switch_names(), besides the preset's
-  std::vector<std::string> disabled;  ///< switch names to take from those
+  std::string preset = {};                 ///< see preset_names(); empty: default
+  std::vector<std::string> enabled = {};   ///< switch names, see switch_names(), on besides
+  std::vector<std::string> disabled = {};  ///< switch names to take from those
   /// Takes the pipelines of a fine tolerance (VKH_CONTEXT_FINE), whatever the tolerance: for the
   /// runs of one question, which would otherwise create two sets.
   bool fine = false;
