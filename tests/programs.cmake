@@ -19,7 +19,8 @@ endif()
 if(VKH_SANITIZE)
   target_compile_options(vkh_test_flags INTERFACE -O0 -fno-sanitize=null,vptr,alignment,object-size)
 endif()
-vkh_precompiled(vkh_test_headers "vkh_test_support;vkh_test_flags"
+# The flags of vkh_file_support are those of all tests; by vkh_test_support, programs of four rooms would wait for the whole host.
+vkh_precompiled(vkh_test_headers "vkh_file_support;vkh_test_flags"
   <doctest/doctest.h> <glm/glm.hpp> <nlohmann/json.hpp> <algorithm> <array> <filesystem> <fstream> <functional> <map>
   <memory> <optional> <random> <span> <sstream> <string> <vector>)
 if(TARGET vkh_test_headers)  # as programs are compiled
