@@ -6,10 +6,10 @@
 #include <limits>
 #include <new>
 
+#include "host/answer/asked_pair.h"
 #include "host/answer/input_hashes.h"
 #include "host/answer/known_answer.h"
 #include "host/answer/progress_line.h"
-#include "host/answer/steps.h"
 #include "host/base/begin_now.h"
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
@@ -35,13 +35,6 @@ struct SharedState {
   ProgressLine line;
   KnownAnswer known;
 
-  /// Takes the meshes once they are read: then units and a first bound are known.
-  void read(const ReadPair& pair, double ms) {
-    Answer answer = known.answer();
-    const double farthest = take_meshes(question, pair.a, pair.b, answer);
-    answer.waits.read = ms;
-    known.begin(answer, farthest);
-  }
   /// Shows how far all work is. `words`: of the method, for --verbose.
   template <class Words>
   void show(const Words& words) {
@@ -74,15 +67,16 @@ Observer observer_of(SharedState& at) {
           .found = [&at](const Answer& answer) { at.known.keep(answer); }};
 }
 
+void take_built_in(AskedPair& asked) {
+  MeshPair pair = default_pair();
+  asked.take(std::make_shared<ReadMesh>(std::move(pair.a)),
+             shaped(std::make_shared<const ReadMesh>(std::move(pair.b))));
+}
+
 /// Reads both files at the same time. Throws what read_mesh throws, A's error before B's. Shows the
 /// progress, and ends with Interrupted when it is to stop. After a bad A the call does not wait for
 /// B, whose threads go on and keep `at`.
-ReadPair built_in_pair() {
-  MeshPair pair = default_pair();
-  return {std::move(pair.a), std::move(pair.b)};
-}
-
-ReadPair read_pair(const std::shared_ptr<SharedState>& at) {
+void take_files(const std::shared_ptr<SharedState>& at, AskedPair& asked) {
   constexpr uint64_t kWorthwhile = 100'000'000;  // about a second on one core
   uint64_t bytes = 0;
   const std::string &file_a = at->question.file_a, &file_b = at->question.file_b;
@@ -101,12 +95,11 @@ ReadPair read_pair(const std::shared_ptr<SharedState>& at) {
     };
     return limits;
   };
-  auto b =
-      begin_now([file_b, limits = limits_of(true)] { return read_mesh(path_of(file_b), limits); });
-  ReadPair pair{read_mesh(path_of(file_a), limits_of(false)), {}};
-  pair.b = b.get();
-  place_a(at->question, pair.a, pair.b);
-  return pair;
+  auto b = begin_now([file_b, limits = limits_of(true)] {
+    return std::make_shared<const ReadMesh>(read_mesh(path_of(file_b), limits));
+  });
+  auto a = std::make_shared<ReadMesh>(read_mesh(path_of(file_a), limits_of(false)));
+  asked.take(std::move(a), shaped(b.get()));
 }
 
 /// Hashes all files that are read, beside the other work; a caller waits only for the result.
@@ -193,24 +186,22 @@ Answered work(const std::shared_ptr<SharedState>& at) {
   Hashes hashes(at);
   auto opening = begin_opening(question);
   const auto start = Clock::now();
-  Answered done;
-  done.pair = question.file_a.empty() ? built_in_pair() : read_pair(at);
-  const double read_ms = ms_since(start);
-  if (!question.align) at->read(done.pair, read_ms);
+  AskedPair pair(question);
+  question.file_a.empty() ? take_built_in(pair) : take_files(at, pair);
+  pair.answer().waits.read = ms_since(start);
+  if (!question.align) at->known.begin(pair.answer());
   hashes.begin_beneath();
-  done.session = opening.get();
+  Session session = opening.get();
+  Solver& first = *session.solver;
   const Observer observer = observer_of(*at);
-  if (question.align) {
-    fit_a(question, *done.session.solver, observer, {done.pair.a, done.pair.b});
-    at->read(done.pair, read_ms);
-  }
-  at->known.open(done.session.device->description(), done.session.setup_ms);
-  done.answer = at->known.answer();
-  const AskedMeshes meshes{done.pair.a, done.pair.b};
-  solve(question, solvers_of(done.session), meshes, observer, done.answer);
-  finish(question, *done.session.solver, meshes, observer, done.answer);
-  hashes.fill(done.answer);
-  return done;
+  pair.fit(first, observer);
+  pair.answer().waits.start = session.setup_ms;
+  at->known.begin(pair.answer());
+  at->known.open(session.device->description());
+  pair.solve(solvers_of(session), observer);
+  pair.finish(first, observer);
+  hashes.fill(pair.answer());
+  return {std::move(pair.answer()), pair.a(), pair.b(), std::move(session)};
 }
 
 /// Returns the answer known so far, for a caller that no longer waits for the run. Unless that

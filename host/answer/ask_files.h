@@ -3,6 +3,8 @@
 // driver does meanwhile.
 #pragma once
 
+#include <memory>
+
 #include "host/answer/session.h"
 #include "host/answer/stop.h"
 #include "vkhausdorff/answer.h"
@@ -11,14 +13,11 @@
 
 namespace vkh {
 
-struct ReadPair {
-  ReadMesh a, b;
-};
-
-/// An answer, with the objects that are destroyed only after it is printed.
+/// An answer, with the objects that are destroyed only after it is printed: none but the answer,
+/// where the question was ended before its meshes were solved.
 struct Answered {
   Answer answer;
-  ReadPair pair;
+  std::shared_ptr<const ReadMesh> a, b;
   Session session;
 };
 

@@ -4,8 +4,8 @@
 #include <thread>
 #include <vector>
 
+#include "host/answer/asked_pair.h"
 #include "host/answer/known_answer.h"
-#include "host/answer/steps.h"
 #include "host/base/float_environment.h"
 #include "vkhausdorff/error.h"
 
@@ -62,8 +62,7 @@ struct Asking::State {
   void run(const std::stop_token& callers);
 
   const Question question;
-  std::shared_ptr<const ReadMesh> a;
-  const std::shared_ptr<const ReadMesh> b;
+  const std::shared_ptr<const ReadMesh> a, b;
   const std::vector<Solver*> solvers;
   const Clock::time_point start = Clock::now();
   KnownAnswer known;
@@ -76,19 +75,15 @@ struct Asking::State {
 void Asking::State::work() {
   const FloatEnvironment ours;
   const Observer heard = observer();
-  if (is_placed(question, *a, *b)) {
-    auto moved = std::make_shared<ReadMesh>(*a);
-    place_a(question, *moved, *b);
-    fit_a(question, *solvers.front(), heard, {*moved, *b});
-    a = std::move(moved);
-  }
-  Answer answer = unread_answer(question);
-  const double farthest = take_meshes(question, *a, *b, answer);
-  known.begin(answer, farthest);
-  known.open(solvers.front()->device().description(), 0);
-  const AskedMeshes meshes{*a, *b};
-  solve(question, solvers, meshes, heard, answer);
-  finish(question, *solvers.front(), meshes, heard, answer);
+  Solver& first = *solvers.front();
+  AskedPair pair(question);
+  pair.take(a, shaped(b));
+  pair.fit(first, heard);
+  known.begin(pair.answer());
+  known.open(first.device().description());
+  pair.solve(solvers, heard);
+  pair.finish(first, heard);
+  Answer& answer = pair.answer();
   answer.waits.total = 1000 * std::chrono::duration<double>(Clock::now() - start).count();
   known.end(answer);
 }

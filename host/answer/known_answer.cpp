@@ -9,18 +9,17 @@ namespace vkh {
 KnownAnswer::KnownAnswer(const Question& question)
     : question_(question), known_(unread_answer(question)) {}
 
-void KnownAnswer::begin(const Answer& answer, double farthest) {
+void KnownAnswer::begin(const Answer& answer) {
   const std::lock_guard lock(mutex_);
   known_ = answer;
-  farthest_ = farthest;
+  farthest_ = answer.a_to_b.upper;
   meter_.emplace(question_, known_);
 }
 
-void KnownAnswer::open(const DeviceDescription& device, double ms) {
+void KnownAnswer::open(const DeviceDescription& device) {
   const std::lock_guard lock(mutex_);
   known_.a_to_b.device = device;
   if (known_.b_to_a) known_.b_to_a->device = device;
-  known_.waits.start = ms;
 }
 
 void KnownAnswer::hear(const Progress& progress) {

@@ -16,10 +16,10 @@ class KnownAnswer {
  public:
   explicit KnownAnswer(const Question& question);
 
-  /// Takes an answer that has its meshes, and the bound that take_meshes() returned: before it all
-  /// that is known is [0, infinity).
-  void begin(const Answer& answer, double farthest);
-  void open(const DeviceDescription& device, double ms);
+  /// Takes an answer that has its meshes and its first bound: before it all that is known is
+  /// [0, infinity).
+  void begin(const Answer& answer);
+  void open(const DeviceDescription& device);
   void hear(const Progress& progress);
   void hear_cells(const SideCount& side);
   void hear_leaves(const SideCount& side);

@@ -142,7 +142,6 @@ void check_sides(const Question& question, const Mesh& a, const Mesh& b) {
 
 void solve(const Question& question, std::span<Solver* const> solvers, const AskedMeshes& meshes,
            const Observer& observer, Answer& answer) {
-  check_sides(question, meshes.a, meshes.b);
   const auto options = [&] { return heard_options(question, observer, answer); };
   if (question.is_by_face()) {
     solve_by_face(question, meshes, *solvers.front(), observer, answer);

@@ -265,6 +265,7 @@ void take_sides(const Question& question, const Diagonal& of_a, Answer& answer) 
 }  // namespace
 
 bool is_placed(const Question& question, const Mesh& a, const Mesh& b) {
+  if (a.placed) return false;
   return question.align || question.transform || !question.transform_file.empty() ||
          units_of(question, a, b).differ();
 }
@@ -310,7 +311,7 @@ const Mesh& start_of(const AskedPlace& placement, const Mesh& a, std::optional<M
 }  // namespace
 
 void place_a(const Question& question, Mesh& a, const Mesh& b) {
-  if (a.placed || question.align || !is_placed(question, a, b)) return;
+  if (question.align || !is_placed(question, a, b)) return;
   place_by(question, placement_of(question, a, b), units_of(question, a, b), a);
 }
 
@@ -333,14 +334,15 @@ void fit_a(const Question& question, Solver& solver, const Observer& observer,
   a.placed->fit = found.fit;
 }
 
-double take_meshes(const Question& question, const ReadMesh& a, const ReadMesh& b, Answer& answer) {
-  return take_meshes(question, {a, shape_of(a)}, {b, shape_of(b)}, answer);
+ShapedMesh shaped(std::shared_ptr<const ReadMesh> mesh) {
+  const MeshShape shape = shape_of(*mesh);
+  return {std::move(mesh), shape};
 }
 
-double take_meshes(const Question& question, const ShapedMesh& shaped_a, const ShapedMesh& shaped_b,
-                   Answer& answer) {
-  const auto& [a, shape_a] = shaped_a;
-  const auto& [b, shape_b] = shaped_b;
+void take_meshes(const Question& question, const ShapedMesh& shaped_a, const ShapedMesh& shaped_b,
+                 Answer& answer) {
+  const ReadMesh &a = *shaped_a.mesh, &b = *shaped_b.mesh;
+  const MeshShape &shape_a = shaped_a.shape, &shape_b = shaped_b.shape;
   const Box &box_a = shape_a.box, &box_b = shape_b.box;
   const Units units = units_of(question, a, b);
   if (units.differ())
@@ -386,7 +388,6 @@ double take_meshes(const Question& question, const ShapedMesh& shaped_a, const S
   if (question.max_sides) take_sides(question, of_a, answer);
   if (!question.face_max_a.empty()) answer.max->faces_a->faces = a.faces.size();
   if (!question.face_max_b.empty()) answer.max->faces_b->faces = b.faces.size();
-  return farthest;
 }
 
 EngineOptions engine_of(const Question& question) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <span>
 
 #include "host/answer/pair_notes.h"
@@ -45,9 +46,10 @@ struct FitMeshes {
 
 /// A mesh and its shape, which a caller keeps for a mesh of many pairs.
 struct ShapedMesh {
-  const ReadMesh& mesh;
+  std::shared_ptr<const ReadMesh> mesh;
   MeshShape shape;
 };
+ShapedMesh shaped(std::shared_ptr<const ReadMesh> mesh);
 
 /// The answer before anything is read: [0, infinity). Throws UsageError as check_question() of
 /// rules.h does.
@@ -65,14 +67,12 @@ bool is_placed(const Question& question, const Mesh& a, const Mesh& b);
 void fit_a(const Question& question, Solver& solver, const Observer& observer,
            const FitMeshes& meshes);
 
-/// Fills in the answer's counts, its unit, its lengths in that unit, and a first upper bound, which
-/// is also returned: no point of either mesh is farther from the other mesh than the joint diagonal
-/// and both deltas. Throws UsageError for units that do not go together and for lengths that cannot
-/// be converted to the files' unit, and InputError where a share is asked of a mesh without area.
-double take_meshes(const Question& question, const ShapedMesh& a, const ShapedMesh& b,
-                   Answer& answer);
-/// Does the same, and finds the shapes.
-double take_meshes(const Question& question, const ReadMesh& a, const ReadMesh& b, Answer& answer);
+/// Fills in the answer's counts, its unit, its lengths in that unit, and a first upper bound: no
+/// point of either mesh is farther from the other mesh than the joint diagonal and both deltas.
+/// Throws UsageError for units that do not go together and for lengths that cannot be converted to
+/// the files' unit, and InputError where a share is asked of a mesh without area.
+void take_meshes(const Question& question, const ShapedMesh& a, const ShapedMesh& b,
+                 Answer& answer);
 
 /// The ends of a picture's colours, in the files' unit; a 0 has no unit. Throws UsageError that
 /// names --range for ends that are reversed, or cannot be converted.
@@ -89,7 +89,7 @@ SolveOptions run_options(const Question& question);
 SolveOptions solve_options(const Question& question, const Answer& known);
 
 /// Refuses, with UsageError or InputError, meshes without sides where the question asks for them:
-/// before any work. solve() does so itself.
+/// before any work.
 void check_sides(const Question& question, const Mesh& a, const Mesh& b);
 
 /// Solves what is asked of the distance: one direction or both, a part of A, over all solvers, or

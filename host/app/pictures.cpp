@@ -87,11 +87,12 @@ void Pictures::write_tables(const Measured& measured) const {
 std::string Pictures::write(const Answered& done) const {
   if (!asked_.has_pictures()) return "";
   try {
-    if (certificate_)
-      certificate_->write(certificate_text(done.answer, {done.pair.a, done.pair.b}));
+    if (done.a == nullptr)
+      throw OutputError(certificate_ ? "the run ended before there was a certificate"
+                                     : "the run ended before there were bounds of faces");
+    if (certificate_) certificate_->write(certificate_text(done.answer, {*done.a, *done.b}));
     if (!asked_.shows_cells()) return "";
-    if (!done.session.device) throw OutputError("the run ended before there were bounds of faces");
-    const Measured measured{done.answer, done.pair.a, done.pair.b};
+    const Measured measured{done.answer, *done.a, *done.b};
     write_tables(measured);
     for (const Side& side : sides_of(measured)) {
       const std::optional<OutputFile>& field = side.back ? field_.back : field_.there;

@@ -75,18 +75,18 @@ bool BatchFolders::has(const ResultName& name, bool symmetric) const {
   return images_->has(name.id, false, key) && (!symmetric || images_->has(name.id, true, key));
 }
 
-void BatchFolders::draw(const EndedPair& pair, Answer answer) noexcept {
+void BatchFolders::draw(const EndedPair& ended) noexcept {
   std::exception_ptr error;
   bool is_left = false;
   try {
-    if (pair.goes_on()) write(pair, answer);
-    is_left = !pair.goes_on() && !has(pair.entry.name, pair.entry.question.symmetric);
+    if (ended.goes_on()) write(ended);
+    is_left = !ended.goes_on() && !has(ended.name, ended.pair.question().symmetric);
   } catch (...) {
     error = std::current_exception();
   }
   const std::lock_guard lock(mutex_);
   if (is_left) ++left_;
-  if (error) failures_.push_back(pair.entry.name.id + ": " + reason_of(error));
+  if (error) failures_.push_back(ended.name.id + ": " + reason_of(error));
 }
 
 void BatchFolders::ask(Question& question) const {
@@ -99,19 +99,20 @@ void BatchFolders::ask(Question& question) const {
 }
 
 // Writes no picture of a survey that was cut short: it would later be taken for a whole one.
-void BatchFolders::write(const EndedPair& pair, Answer& answer) const {
-  const NamedEntry& entry = pair.entry;
+void BatchFolders::write(const EndedPair& ended) const {
+  const AskedPair& pair = ended.pair;
+  Answer answer = pair.answer();
   if (!answer.survey_a) {
-    Question question = entry.question;
+    Question question = pair.question();
     ask(question);
-    const Observer observer{.goes_on = pair.goes_on,
+    const Observer observer{.goes_on = ended.goes_on,
                             .left_s = [&] { return question.budget.time_limit_s; }};
-    finish(question, pair.solver, {*pair.meshes.a, *pair.meshes.b}, observer, answer);
+    finish(question, ended.solver, {*pair.a(), *pair.b()}, observer, answer);
   }
-  if (!pair.goes_on()) return;
-  const Measured measured{answer, *pair.meshes.a, *pair.meshes.b};
-  const std::string& id = entry.name.id;
-  const std::string key = key_of(entry.name);
+  if (!ended.goes_on()) return;
+  const Measured measured{answer, *pair.a(), *pair.b()};
+  const std::string& id = ended.name.id;
+  const std::string key = key_of(ended.name);
   std::vector<std::string> pictures = pictures_of(measured, style_);
   if (reports_) reports_->write(id, false, report_of(measured, pictures, style_), key);
   if (!images_) return;

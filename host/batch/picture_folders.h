@@ -16,8 +16,8 @@ namespace vkh {
 
 /// A pair whose run has ended, on the thread that ran it.
 struct EndedPair {
-  const NamedEntry& entry;
-  const EntryMeshes& meshes;
+  const ResultName& name;
+  const AskedPair& pair;
   Solver& solver;
   std::function<bool()> goes_on;  ///< false: the drawing is to end
 };
@@ -38,7 +38,7 @@ class BatchFolders {
 
   /// Surveys the pair, unless its answer has a survey, which has what ask() asked for. Writes its
   /// files, one pair at a time on a thread. Never throws: an answer is not lost over its picture.
-  void draw(const EndedPair& pair, Answer answer) noexcept;
+  void draw(const EndedPair& ended) noexcept;
 
   /// Writes an index per folder, one for both if they are one, of all pairs in the results `file`.
   /// Throws OutputError.
@@ -53,7 +53,7 @@ class BatchFolders {
 
  private:
   std::string key_of(const ResultName& name) const;
-  void write(const EndedPair& pair, Answer& answer) const;
+  void write(const EndedPair& ended) const;
 
   PictureStyle style_;
   std::optional<uint64_t> effort_;      // SurveyOptions::effort

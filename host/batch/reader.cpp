@@ -93,25 +93,21 @@ InputHashes EntryReader::hashes_of(const std::string& file, bool is_shared) {
 NamedEntry EntryReader::name(const Entry& entry) {
   if (!entry.missing.empty())
     throw InputError({.file = entry.one_file(), .problem = entry.missing});
-  NamedEntry named;
-  named.entry = &entry;
   Request asked = base_;
   put_row(entry, asked);
-  Question& question = named.question = asked.question;
+  Question question = asked.question;
   question.file_a = entry.file_a;
   question.file_b = entry.file_b;
-  named.known = unread_answer(question);
-  const bool shares_b = shared_.count(entry.file_b) > 0;
-  named.known.inputs[0].path = entry.a;
-  named.known.inputs[1].path = entry.b;
-  for (size_t i = 0; i < named.known.inputs.size(); ++i) {
-    const bool is_shared = i == 1 && shares_b;
+  NamedEntry named{.name = {entry.id, ""},
+                   .pair = std::make_unique<AskedPair>(std::move(question)),
+                   .shares_b = shared_.count(entry.file_b) > 0};
+  for (size_t i = 0; i < 2; ++i) {
+    const bool is_shared = i == 1 && named.shares_b;
     InputHashes hashes = hashes_of(i == 0 ? entry.file_a : entry.file_b, is_shared);
-    named.known.inputs[i].sha256 = std::move(hashes.sha256);
-    named.known.inputs[i].files = std::move(hashes.files);
     if (!is_shared) named.file_bytes += hashes.bytes;
+    named.pair->name(i, i == 0 ? entry.a : entry.b, std::move(hashes));
   }
-  named.name = {entry.id, key_of(std::move(asked), named.known, shares_b)};
+  named.name.key = key_of(std::move(asked), named.pair->answer(), named.shares_b);
   return named;
 }
 
@@ -139,10 +135,9 @@ void EntryReader::drop_old() {
   }
 }
 
-EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
-                                                  const ReadLimits& limits) {
-  std::promise<SharedMesh> mine;
-  std::shared_future<SharedMesh> theirs;
+ShapedMesh EntryReader::kept_mesh_of(const std::string& file, const ReadLimits& limits) {
+  std::promise<ShapedMesh> mine;
+  std::shared_future<ShapedMesh> theirs;
   {
     const std::lock_guard lock(mutex_);
     const auto [known, is_new] = meshes_.try_emplace((limits.points ? "points " : "mesh ") + file);
@@ -154,8 +149,7 @@ EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
   }
   if (theirs.valid()) return theirs.get();
   try {
-    const std::shared_ptr<const ReadMesh> mesh = mesh_of(file, limits);
-    SharedMesh made{mesh, shape_of(*mesh)};
+    ShapedMesh made = shaped(mesh_of(file, limits));
     mine.set_value(made);
     return made;
   } catch (...) {
@@ -164,50 +158,18 @@ EntryReader::SharedMesh EntryReader::kept_mesh_of(const std::string& file,
   }
 }
 
-EntryReader::SharedMesh EntryReader::b_of(const Question& question, bool is_shared) {
+ShapedMesh EntryReader::b_of(const Question& question, bool is_shared) {
   if (is_shared) return kept_mesh_of(question.file_b, question.limits_of(true));
-  const std::shared_ptr<const ReadMesh> mesh = mesh_of(question.file_b, question.limits_of(true));
-  return {mesh, shape_of(*mesh)};
+  return shaped(mesh_of(question.file_b, question.limits_of(true)));
 }
 
-EntryMeshes EntryReader::read(NamedEntry& entry) {
+void EntryReader::read(bool shares_b, AskedPair& pair) {
   const auto start = Clock::now();
-  EntryMeshes meshes;
-  meshes.shares_b = shared_.count(entry.question.file_b) > 0;
-  const std::shared_ptr<ReadMesh> a =
-      mesh_of(entry.question.file_a, entry.question.limits_of(false));
-  const SharedMesh b = b_of(entry.question, meshes.shares_b);
-  meshes.b = b.mesh;
-  place_a(entry.question, *a, *meshes.b);
-  meshes.a = a;
-  meshes.shape_b = b.shape;
-  check_sides(entry.question, *meshes.a, *meshes.b);
-  if (!entry.question.align) take(meshes, entry);
-  entry.known.waits.read = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-  return meshes;
-}
-
-void EntryReader::fit(Solver& solver, const Observer& observer, const PreparedMesh* prepared_b,
-                      EntryMeshes& meshes, NamedEntry& entry) {
-  const auto start = Clock::now();
-  auto moved = std::make_shared<ReadMesh>(*meshes.a);
-  fit_a(entry.question, solver, observer, {*moved, *meshes.b, prepared_b});
-  meshes.a = std::move(moved);
-  const double read_ms = entry.known.waits.read;
-  take(meshes, entry);
-  entry.known.waits.read =
-      read_ms + std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-void EntryReader::take(const EntryMeshes& meshes, NamedEntry& entry) {
-  Answer known = entry.known;  // a copy: an unresolved length must not cost the hashes
-  take_meshes(entry.question, {*meshes.a, shape_of(*meshes.a)}, {*meshes.b, meshes.shape_b}, known);
-  for (size_t i = 0; i < known.inputs.size(); ++i) {
-    known.inputs[i].path = entry.known.inputs[i].path;
-    known.inputs[i].sha256 = entry.known.inputs[i].sha256;
-    known.inputs[i].files = entry.known.inputs[i].files;
-  }
-  entry.known = std::move(known);
+  const Question& question = pair.question();
+  std::shared_ptr<ReadMesh> a = mesh_of(question.file_a, question.limits_of(false));
+  pair.take(std::move(a), b_of(question, shares_b));
+  pair.answer().waits.read =
+      std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
 }  // namespace vkh

@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
+#include "host/answer/asked_pair.h"
 #include "host/answer/input_hashes.h"
 #include "host/answer/result.h"
-#include "host/answer/steps.h"
 #include "host/answer/stop.h"
 #include "host/batch/list.h"
 
@@ -21,17 +21,10 @@ constexpr uint64_t kBytesOfAByte = 3;
 
 /// An entry with the facts known before its meshes are read.
 struct NamedEntry {
-  const Entry* entry = nullptr;
-  Question question;
   ResultName name;
-  Answer known;             ///< the known answer, with its inputs' hashes
-  uint64_t file_bytes = 0;  ///< the size of all files that are read for it alone
-};
-
-struct EntryMeshes {
-  std::shared_ptr<const ReadMesh> a, b;
-  MeshShape shape_b;
+  std::unique_ptr<AskedPair> pair;  ///< without its meshes; its answer has the inputs' hashes
   bool shares_b = false;
+  uint64_t file_bytes = 0;  ///< the size of all files that are read for it alone
 };
 
 /// The files that lists name as B more than once: their meshes are kept for each other, and
@@ -48,28 +41,18 @@ class EntryReader {
 
   /// Throws UsageError for an entry's wrong options, and InputError for one without a partner.
   NamedEntry name(const Entry& entry);
-  /// Throws what read_mesh and take_meshes throw. Fills entry.known, unless a fit is asked for.
-  EntryMeshes read(NamedEntry& entry);
-  /// Lays A onto B, and fills entry.known. `prepared_b`: B on the device, or null. Throws what
-  /// fit_a and take_meshes throw.
-  static void fit(Solver& solver, const Observer& observer, const PreparedMesh* prepared_b,
-                  EntryMeshes& meshes, NamedEntry& entry);
+  /// Gives a named pair its meshes. Throws what read_mesh and AskedPair::take throw.
+  void read(bool shares_b, AskedPair& pair);
 
  private:
-  /// A mesh of several pairs, and its shape, which is found once.
-  struct SharedMesh {
-    std::shared_ptr<const ReadMesh> mesh;
-    MeshShape shape;
-  };
   struct Kept {
-    std::shared_future<SharedMesh> mesh;
+    std::shared_future<ShapedMesh> mesh;
     uint64_t last_use = 0, bytes = 0;
   };
-  static void take(const EntryMeshes& meshes, NamedEntry& entry);
   InputHashes hashes_of(const std::string& file, bool is_shared);
   std::shared_ptr<ReadMesh> mesh_of(const std::string& file, const ReadLimits& limits) const;
-  SharedMesh b_of(const Question& question, bool is_shared);
-  SharedMesh kept_mesh_of(const std::string& file, const ReadLimits& limits);
+  ShapedMesh b_of(const Question& question, bool is_shared);
+  ShapedMesh kept_mesh_of(const std::string& file, const ReadLimits& limits);
   void drop_old();
 
   Request base_;

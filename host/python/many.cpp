@@ -1,7 +1,9 @@
 #include "host/python/many.h"
 
+#include <set>
+
+#include "host/answer/asking_stream.h"
 #include "host/python/arguments.h"
-#include "host/python/flow.h"
 #include "host/python/interpreter.h"
 #include "host/python/keywords.h"
 #include "host/python/session.h"
@@ -22,17 +24,6 @@ py::object exception_of(const std::exception_ptr& error) {
   return py::none();
 }
 
-Result streamed_result(const Question& question, FlowResult&& found) {
-  Result result;
-  if (found.error) {
-    result.error = exception_of(found.error);
-  } else {
-    result = result_of(question, found.answer, found.a, found.b);
-  }
-  result.index = found.number;
-  return result;
-}
-
 constexpr const char* kSelectors =
     "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, or "
     "'all'";
@@ -51,14 +42,32 @@ bool is_given(const Arguments& given, const char* name) {
   return value != nullptr && !value->is_none();
 }
 
-FlowQuestion asked_from(const Arguments& given) {
-  FlowQuestion asked;
+/// The question about every pair, and its devices.
+struct AskedOfAll {
+  Question question;   ///< its `limits` are for files
+  ShapedMesh against;  ///< the B of all; null: each has its own
+  StreamOptions devices;
+  size_t ahead = 0;  ///< most pairs that are put and not taken
+};
+
+// The default for GPUs, which take most: 3 workers of 16 pairs, and as many that wait for them.
+size_t default_ahead(const StreamOptions& devices) {
+  const size_t lanes = devices.lanes != 0 ? devices.lanes : 3;
+  const size_t together = devices.together != 0 ? devices.together : 16;
+  return 2 * lanes * together * devices.devices.size();
+}
+
+AskedOfAll asked_from(const Arguments& given) {
+  AskedOfAll asked;
   Request request = request_of(kPyMany, "distances", given);
   asked.question = std::move(request.question);
-  asked.ahead = ahead_of(given);
   asked.devices.together = request.many.together;
   asked.devices.lanes = request.many.lanes;
   asked.devices.devices = given.devices(kSelectors);
+  asked.devices.first = engine_of(asked.question);
+  asked.ahead = ahead_of(given);
+  if (asked.ahead == 0) asked.ahead = default_ahead(asked.devices);
+  asked.devices.waiting = asked.ahead;  // so that no thread ever waits for a device's queue
   if (is_given(given, "against"))
     asked.against =
         kept(mesh_of("against", "B", given.at("against"), asked.question.limits_of(true)));
@@ -75,72 +84,189 @@ py::object failed(size_t index, const py::object& id, const py::object& error) {
 
 }  // namespace
 
+/// All that runs on threads of ours. Nothing of it touches Python, but for wait(), which asks it
+/// about signals.
+class Pulled {
+ public:
+  explicit Pulled(AskedOfAll asked);
+  ~Pulled();
+  Pulled(const Pulled&) = delete;
+  Pulled& operator=(const Pulled&) = delete;
+
+  /// Returns a pair that has ended; null when none is left, or end() came. Called within a
+  /// WithoutGil. Throws DeviceError if no device is left, and what ask() throws.
+  std::unique_ptr<StreamedPair> wait();
+  /// Drops what waits, cancels what runs, and returns when no thread is left.
+  void end();
+
+  const AskedOfAll asked;
+  AskingStream stream;
+
+ private:
+  std::mutex ending_;
+};
+
+namespace {
+
+// This is never destroyed: see interpreter.cpp.
+struct Alive {
+  std::mutex mutex;
+  std::set<Pulled*> all;
+};
+Alive& alive() {
+  static auto* alive = new Alive;
+  return *alive;
+}
+
+/// A pair that was put.
+class GivenPair : public StreamedPair {
+ public:
+  GivenPair(size_t index, MeshGiven a, MeshGiven b, const Pulled& of)
+      : index(index), a_(std::move(a)), b_(std::move(b)), of_(of) {}
+
+  void read() override {
+    const AskedOfAll& asked = of_.asked;
+    const auto limits_of = [&](bool is_b) {
+      ReadLimits limits = asked.question.limits_of(is_b);
+      limits.keep_going = [this] { return !of_.stream.is_cancelled(); };
+      return limits;
+    };
+    const MeshPointer a = made_mesh(std::move(a_), limits_of(false));
+    pair = std::make_unique<AskedPair>(asked.question);
+    pair->take(a, shares_b() ? asked.against : shaped(made_mesh(std::move(b_), limits_of(true))));
+  }
+  bool shares_b() const override { return of_.asked.against.mesh != nullptr; }
+  bool has_more() const override { return of_.asked.question.asks_for_cells(); }
+  void finish(AskedPair& solved, Solver& solver) override {
+    solved.finish(solver, {.goes_on = [this] { return !of_.stream.is_cancelled(); }});
+  }
+
+  const size_t index;
+
+ private:
+  MeshGiven a_, b_;
+  const Pulled& of_;
+};
+
+}  // namespace
+
+Pulled::Pulled(AskedOfAll given) : asked(std::move(given)), stream(asked.devices) {
+  const std::lock_guard lock(alive().mutex);
+  alive().all.insert(this);
+}
+
+Pulled::~Pulled() {
+  {
+    const std::lock_guard lock(alive().mutex);
+    alive().all.erase(this);
+  }
+  end();
+}
+
+std::unique_ptr<StreamedPair> Pulled::wait() {
+  constexpr std::chrono::milliseconds kStep(50);
+  while (!stream.wait(std::chrono::steady_clock::now() + kStep)) {
+    stream.check();
+    hear_signals();
+  }
+  std::unique_ptr<StreamedPair> found = stream.take();
+  if (found == nullptr) stream.check();
+  return found;
+}
+
+void Pulled::end() {
+  const std::lock_guard only_one(ending_);
+  stream.cancel();
+  try {
+    stream.finish();
+  } catch (const DeviceError&) {  // no caller asks for it any more
+  }
+}
+
+void end_streams() {
+  const std::lock_guard lock(alive().mutex);
+  for (Pulled* one : alive().all) one->end();
+}
+
 PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) {
   static const auto* signature =
       new Signature(signature_of(kPyMany, "distances", {"against", "ahead"}, 0, 0));
   const Call call;
   const Arguments given(*signature, positional, named);
   mark_used();
-  FlowQuestion asked = asked_from(given);
-  question_ = asked.question;
+  AskedOfAll asked = asked_from(given);
   const WithoutGil outside;
-  flow_ = std::make_shared<Flow>(std::move(asked));
+  pulled_ = std::make_shared<Pulled>(std::move(asked));
 }
 
 bool PythonStream::has_room() const {
   const Call call;
-  return flow_ != nullptr && flow_->has_room();
+  return pulled_ != nullptr && waiting_.size() < pulled_->asked.ahead &&
+         bytes_ <= AskingStream::kReadAhead;
 }
 
 void PythonStream::put(size_t index, const py::object& id, const py::object& a,
                        const py::object& b) {
   const Call call;
-  const std::shared_ptr<Flow> flow = flow_;
-  if (flow == nullptr) return;
-  FlowPair pair{.number = index, .a = mesh_given("a", "A", a, question_.points_a), .b = {}};
-  if (!b.is_none()) pair.b = mesh_given("b", "B", b, question_.points_b);
-  if (!id.is_none()) ids_[index] = id;
+  const std::shared_ptr<Pulled> pulled = pulled_;
+  if (pulled == nullptr) return;
+  const Question& question = pulled->asked.question;
+  MeshGiven mesh_a = mesh_given("a", "A", a, question.points_a), mesh_b;
+  if (!b.is_none()) mesh_b = mesh_given("b", "B", b, question.points_b);
+  Waiting& waiting = waiting_[index];
+  waiting.id = id;
   std::optional<WithoutGil> outside;
-  if (!pair.a.file.empty() || !pair.b.file.empty()) outside.emplace();  // disks may be slow
-  flow->put(std::move(pair));
+  if (!mesh_a.file.empty() || !mesh_b.file.empty()) outside.emplace();  // disks may be slow
+  waiting.bytes = mesh_a.bytes() + mesh_b.bytes();
+  bytes_ += waiting.bytes;
+  pulled->stream.put(
+      std::make_unique<GivenPair>(index, std::move(mesh_a), std::move(mesh_b), *pulled));
 }
 
 py::object PythonStream::take(bool waits) {
   const Call call;
-  const std::shared_ptr<Flow> flow = flow_;
-  if (flow == nullptr) return py::none();
-  std::optional<FlowResult> found = flow->take();
+  const std::shared_ptr<Pulled> pulled = pulled_;
+  if (pulled == nullptr) return py::none();
+  std::unique_ptr<StreamedPair> found = pulled->stream.take();
   if (!found && waits) {
     try {
       const WithoutGil outside;
-      found = flow->wait();
+      found = pulled->wait();
     } catch (const Raised&) {
       throw py::error_already_set();
     }
   }
   if (!found) return py::none();
-  Result result = streamed_result(question_, std::move(*found));
-  const auto id = ids_.extract(*result.index);
-  if (id) result.id = id.mapped();
+  const AskedPair* pair = found->pair.get();
+  Result result;
+  if (found->error) {
+    result.error = exception_of(found->error);
+  } else {
+    result = result_of(pair->question(), pair->answer(), pair->a(), pair->b());
+  }
+  result.index = dynamic_cast<const GivenPair&>(*found).index;
+  const auto waiting = waiting_.extract(*result.index);
+  result.id = waiting.mapped().id;
+  bytes_ -= waiting.mapped().bytes;
   return py::cast(std::move(result));
 }
 
 // After a fork the parent's threads and devices are not there, and nothing of them may be touched.
 void PythonStream::close() {
-  std::shared_ptr<Flow> flow = std::move(flow_);
-  flow_ = nullptr;
-  ids_.clear();
-  if (flow == nullptr) return;
+  std::shared_ptr<Pulled> pulled = std::move(pulled_);
+  pulled_ = nullptr;
+  waiting_.clear();
+  if (pulled == nullptr) return;
   if (is_forked()) {
-    static_cast<void>(new std::shared_ptr<Flow>(std::move(flow)));
+    static_cast<void>(new std::shared_ptr<Pulled>(std::move(pulled)));
     return;
   }
   try {
     const Call call;
     const WithoutGil outside;
-    flow->end();
-    flow.reset();
-  } catch (const Ended&) {  // end_all() has been there, or will be
+    pulled->end();
+    pulled.reset();
+  } catch (const Ended&) {  // end_streams() has been there, or will be
   }
 }
 

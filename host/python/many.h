@@ -7,11 +7,10 @@
 #include <memory>
 
 #include "host/python/result.h"
-#include "vkhausdorff/question.h"
 
 namespace vkh::python {
 
-class Flow;
+class Pulled;
 
 /// Used by one thread of Python at a time; the generator that has it sees to that.
 class PythonStream {
@@ -21,22 +20,34 @@ class PythonStream {
   PythonStream(const PythonStream&) = delete;
   PythonStream& operator=(const PythonStream&) = delete;
 
+  /// Whether one more may be put: fewer than `ahead` are put and not taken, and the meshes of these
+  /// are within AskingStream::kReadAhead.
   bool has_room() const;
   /// Puts a pair without waiting. Throws the error in the arrays; `b`: None with against=.
   void put(size_t index, const pybind11::object& id, const pybind11::object& a,
            const pybind11::object& b);
-  /// Returns a Result, or None: if none is there yet, or with `waits` if none will be.
+  /// Returns a Result, or None: if none is there yet, or with `waits` if none will be. Throws
+  /// DeviceError if no device is left.
   pybind11::object take(bool waits);
   /// Waits until nothing runs. Does nothing if there is nothing to close.
   void close();
 
  private:
-  std::shared_ptr<Flow> flow_;
-  Question question_;                       // of all pairs
-  std::map<size_t, pybind11::object> ids_;  // for pairs that are put and not taken
+  /// A pair that is put and not taken.
+  struct Waiting {
+    pybind11::object id;
+    uint64_t bytes = 0;
+  };
+
+  std::shared_ptr<Pulled> pulled_;
+  std::map<size_t, Waiting> waiting_;
+  uint64_t bytes_ = 0;  // of all that wait
 };
 
 /// Defines the class _Stream of _core, and _failed().
 void define_many(pybind11::module_& m);
+
+/// Ends every stream at the end of the interpreter. Never takes the GIL.
+void end_streams();
 
 }  // namespace vkh::python

@@ -469,13 +469,6 @@ MeshPointer made_mesh(MeshGiven given, ReadLimits limits) {
       make_mesh(raw.name, std::move(raw.vertices), std::move(raw.faces)));
 }
 
-MeshPointer placed(const Question& question, const MeshPointer& a, const Mesh& b) {
-  if (a->placed || question.align || !is_placed(question, *a, b)) return a;
-  auto moved = std::make_shared<ReadMesh>(*a);
-  place_a(question, *moved, b);
-  return moved;
-}
-
 std::optional<std::string> path_from(const char* argument, const py::object& given) {
   if (!is_path(given)) return std::nullopt;
   return file_from(argument, given);
@@ -569,10 +562,9 @@ MeshPointer mesh_of(const std::string& name, const py::object& vertices, const p
   return std::make_shared<const ReadMesh>(mesh_from(name, vertices, faces));
 }
 
-KeptMesh kept(MeshPointer mesh) {
+ShapedMesh kept(MeshPointer mesh) {
   const FloatEnvironment ours;
-  const MeshShape shape = shape_of(*mesh);
-  return {std::move(mesh), shape};
+  return shaped(std::move(mesh));
 }
 
 }  // namespace vkh::python

@@ -8,24 +8,18 @@
 #include <optional>
 #include <string>
 
-#include "host/answer/pair_notes.h"
+#include "host/answer/steps.h"
 #include "host/python/arguments.h"
 #include "host/python/arrays.h"
 #include "vkhausdorff/mesh_io.h"
-#include "vkhausdorff/question.h"
 #include "vkhausdorff/read_limits.h"
 
 namespace vkh::python {
 
 using MeshPointer = std::shared_ptr<const ReadMesh>;
 
-/// A mesh of many pairs, with its shape.
-struct KeptMesh {
-  MeshPointer mesh;
-  MeshShape shape;
-};
-
-KeptMesh kept(MeshPointer mesh);
+/// shaped(), in the floating-point environment that it needs.
+ShapedMesh kept(MeshPointer mesh);
 
 /// A Mesh of the package's.
 pybind11::object mesh_object(MeshPointer mesh);
@@ -67,9 +61,6 @@ MeshGiven mesh_given(const char* argument, const std::string& name, const pybind
                      bool are_points = false);
 /// Makes the mesh on any thread. Throws FileFault, what read_mesh and make_mesh throw.
 MeshPointer made_mesh(MeshGiven given, ReadLimits limits);
-
-/// A where the question puts it: A itself, or a copy.
-MeshPointer placed(const Question& question, const MeshPointer& a, const Mesh& b);
 
 /// The path that a str or an os.PathLike names; none for other objects. Throws ValueError that
 /// names `argument` for a path of no file.

@@ -5,7 +5,6 @@
 #include "engine/vkhausdorff.h"
 #include "host/python/errors.h"
 #include "host/python/field.h"
-#include "host/python/flow.h"
 #include "host/python/interpreter.h"
 #include "host/python/keywords.h"
 #include "host/python/many.h"
@@ -298,5 +297,5 @@ PYBIND11_MODULE(_core, m) {
   m.attr("__name__") = own_name;
   watch_interpreter();
   py::module_::import("atexit").attr("register")(
-      py::cpp_function([] { end_interpreter(Flow::end_all, free_devices); }));
+      py::cpp_function([] { end_interpreter(end_streams, free_devices); }));
 }

@@ -6,7 +6,7 @@
 #include <functional>
 #include <map>
 
-#include "host/answer/steps.h"
+#include "host/answer/asked_pair.h"
 #include "host/base/float_environment.h"
 #include "host/base/output_file.h"
 #include "host/python/interpreter.h"
@@ -83,17 +83,16 @@ struct Given {
   Question question;
   py::object progress, on_progress;
   std::unique_ptr<OutputFile> certificate;
-  MeshPointer a, b;
-  MeshShape shape_b;
+  MeshPointer a;
+  ShapedMesh b;
 
   Given(Functions function, const char* command, const Arguments& given, MeshPointer mesh_a,
-        KeptMesh mesh_b)
+        ShapedMesh mesh_b)
       : progress(callback_of(given, "progress", "a function of wave, lower and upper, or None")),
         on_progress(
             callback_of(given, "on_progress", "a function of fraction, lower and upper, or None")),
         a(std::move(mesh_a)),
-        b(std::move(mesh_b.mesh)),
-        shape_b(mesh_b.shape) {
+        b(std::move(mesh_b)) {
     Request asked = request_of(function, command, given);
     certificate = certificate_file(asked.outputs);
     question = std::move(asked.question);
@@ -159,9 +158,10 @@ class Listener {
 /// Writes the certificate's file, if there is a proof, and its size into the result. Warns if it
 /// proves less than the interval. Arrays are in no file, so that its hashes are those of their
 /// corners alone.
-void write_certificate(Given& given, const Answer& answer, Result& result) {
+void write_certificate(const Given& given, const AskedPair& pair, Result& result) {
   if (!given.certificate || result.stats["certificate"].is_none()) return;
-  const std::string text = certificate_text(answer, {*given.a, *given.b});
+  const Answer& answer = pair.answer();
+  const std::string text = certificate_text(answer, {*pair.a(), *pair.b()});
   given.certificate->write(text);
   result.stats["certificate"]["bytes"] = text.size();
   const bool is_less = answer.proof_a->upper > answer.a_to_b.upper ||
@@ -173,45 +173,34 @@ void write_certificate(Given& given, const Answer& answer, Result& result) {
 }
 
 /// Lays A onto B on the device, where that is asked for.
-void fit_on(Session& session, Session::Key key, Given& given) {
-  if (!given.question.align) return;
-  auto moved = std::make_shared<ReadMesh>(*given.a);
-  FloatEnvironment* environment = nullptr;
-  const Observer observer{.goes_on = [&environment] {
-    environment->outside(hear_signals);
+void fit(AskedPair& pair, Solver& solver, const PreparedMesh* prepared) {
+  FloatEnvironment ours;
+  const auto goes_on = [&ours] {
+    ours.outside(hear_signals);
     return true;
-  }};
-  session.use(
-      [&](Solver& solver, const PreparedMesh* prepared) {
-        FloatEnvironment ours;
-        environment = &ours;
-        fit_a(given.question, solver, observer, {*moved, *given.b, prepared});
-      },
-      key);
-  given.a = std::move(moved);
+  };
+  pair.fit(solver, {.goes_on = goes_on}, prepared);
 }
 
-Result answered(Given given, Session& session, Session::Key key = 0) {
-  Answer answer = unread_answer(given.question);
-  fit_on(session, key, given);
+Result answered(const Given& given, Session& session, Session::Key key = 0) {
+  AskedPair pair(given.question);
   {
     const FloatEnvironment ours;
-    given.a = placed(given.question, given.a, *given.b);
-    take_meshes(given.question, {*given.a, shape_of(*given.a)}, {*given.b, given.shape_b}, answer);
+    pair.take(given.a, given.b);
   }
   const auto work = [&](Solver& solver, const PreparedMesh* prepared) {
-    Listener listener(given, answer);
+    fit(pair, solver, prepared);
+    Listener listener(given, pair.answer());
     Solver* const solvers[] = {&solver};
-    const AskedMeshes meshes{*given.a, *given.b, prepared};
-    solve(given.question, solvers, meshes, listener.observer(), answer);
-    finish(given.question, solver, meshes, listener.observer(), answer);
-    listener.end(answer);
+    pair.solve(solvers, listener.observer(), prepared);
+    pair.finish(solver, listener.observer(), prepared);
+    listener.end(pair.answer());
   };
   session.use(work, key);
   // Raises a KeyboardInterrupt that came too late for a run after it.
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  Result result = result_of(given.question, answer, given.a, given.b);
-  write_certificate(given, answer, result);
+  Result result = result_of(given.question, pair.answer(), pair.a(), pair.b());
+  write_certificate(given, pair, result);
   return result;
 }
 

@@ -56,7 +56,7 @@ class PythonSolver {
  private:
   std::shared_ptr<Session> open_session() const;
 
-  KeptMesh b_;
+  ShapedMesh b_;
   std::shared_ptr<Session> session_;  // shared with the calls in flight on other threads
   Session::Key key_ = 0;              // of b_
   bool shares_device_ = false;

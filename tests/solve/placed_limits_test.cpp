@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-#include "host/answer/steps.h"
+#include "host/answer/asked_pair.h"
 #include "tests/files/gltf_document.h"
 #include "tests/files/las_file.h"
 #include "tests/files/stored_zip.h"
@@ -277,10 +277,12 @@ struct Counts {
 };
 
 Verdict verdict_on(const Placed& a, Case& one) {
-  Answer answer = unread_answer(one.question);
-  take_meshes(one.question, a.mesh, one.b, answer);
+  AskedPair pair(one.question);
+  pair.take(std::make_shared<const ReadMesh>(a.mesh),
+            shaped(std::make_shared<const ReadMesh>(one.b)));
   Solver* const solvers[] = {&solver()};
-  solve(one.question, solvers, {a.mesh, one.b}, {}, answer);
+  pair.solve(solvers, {});
+  const Answer& answer = pair.answer();
   // Every other use of the length has these two ends.
   CHECK(Rational(answer.max->limit.within) * Rational(answer.max->limit.within) <=
         one.squared_limit);
