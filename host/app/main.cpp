@@ -5,16 +5,20 @@
 #endif
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <set>
 #include <sstream>
 
-#include "host/answer/ask_files.h"
 #include "host/answer/exit_code.h"
+#include "host/answer/file_source.h"
 #include "host/answer/option_values.h"
+#include "host/answer/progress_line.h"
 #include "host/app/arguments.h"
 #include "host/app/doctor.h"
 #include "host/app/many_pairs.h"
@@ -56,10 +60,87 @@ void check_verified(const Answer& answer) {
   }
 }
 
-/// Returns the answer, or writes the error to the outputs and throws it.
-Answered answer_for(const Request& asked, const Stop& stop, Destinations& destinations) {
+/// A question on its way, with the device, which is destroyed only after the answer is printed.
+struct Asked {
+  Asked(const Question& asked, const Stop& until)
+      : question(asked),
+        stop(until),
+        state(std::make_shared<AskingState>(question, files_of(question, stop, line))),
+        asking(state) {}
+
+  const Question& question;
+  const Stop& stop;
+  const std::shared_ptr<ProgressLine> line = std::make_shared<ProgressLine>();
+  const std::shared_ptr<AskingState> state;
+  Asking asking;
+};
+
+/// Returns true once all work is done; false when the caller is to wait no longer.
+bool is_waited_for(const Asked& at) {
+  constexpr std::chrono::milliseconds kLook(20);
+  constexpr double kGraceful = 0.06;  // a run on a GPU ends by itself in it, with more to report
+  constexpr double kToAddUp = 3;      // a survey has files to write that the user asked for
+  const Stop& stop = at.stop;
+  // A certificate proves the final result of the search, so that is waited for too.
+  const auto patience = [&] {
+    return at.state->is_final() || at.question.certificate ? kToAddUp : kGraceful;
+  };
+  double asked_at = std::numeric_limits<double>::infinity();
+  while (!at.asking.wait(Clock::now() + kLook)) {
+    if (!stop.is_asked()) continue;
+    asked_at = std::min(asked_at, stop.elapsed_s());
+    if (stop.elapsed_s() - asked_at > patience()) return false;
+  }
+  return true;
+}
+
+/// Returns the answer known so far, for a caller that no longer waits for the run. Unless that
+/// answer is final, its status says why the run was stopped.
+Answer unfinished(const Asked& at) {
+  at.line->end();
+  Answer answer = at.state->known();
+  if (at.state->is_final()) return answer;
+  answer.a_to_b.status = at.stop.why();
+  if (answer.b_to_a) answer.b_to_a->status = at.stop.why();
+  return answer;
+}
+
+/// `a` and `b`: the meshes as they were measured; null where the run was ended before.
+struct Answered {
+  std::unique_ptr<Asked> asked;
+  Answer answer;
+  std::shared_ptr<const ReadMesh> a, b;
+};
+
+/// When its stop is asked for, the answer is what is known: its interval is true, if only
+/// [0, infinity).
+void take_answer(Answered& done) {
+  Asked& at = *done.asked;
+  if (!is_waited_for(at)) {
+    at.asking.leave();
+    done.answer = unfinished(at);
+    return;
+  }
   try {
-    return ask(asked.question, stop);
+    at.state->check();
+  } catch (const Interrupted&) {
+    done.answer = unfinished(at);
+    return;
+  }
+  at.line->end();
+  AskedPair& pair = at.state->pair();
+  done.answer = std::move(pair.answer());
+  done.a = pair.a();
+  done.b = pair.b();
+}
+
+/// Returns the answer, or writes the error to the outputs and throws it.
+Answered answer_for(const Question& question, const Stop& stop, Destinations& destinations) {
+  try {
+    Answered done{.asked = std::make_unique<Asked>(question, stop)};
+    take_answer(done);
+    done.answer.waits.total = stop.elapsed_s() * 1000;
+    return done;
   } catch (const Error& error) {
     destinations.write(failure_of(error));
     throw;
@@ -111,10 +192,9 @@ auto or_tell(const Words& words, const F& work) {
 
 int run_pair(const Request& asked, const Words& words, const Stop& stop) {
   auto [destinations, pictures] = or_tell(words, [&] { return places_of(asked); });
-  const Answered done =
-      answer_for(asked, stop, destinations);  // destroyed after the answer is printed
+  const Answered done = answer_for(asked.question, stop, destinations);
   std::string not_written = destinations.write(done.answer);
-  const std::string not_drawn = pictures.write(done);
+  const std::string not_drawn = pictures.write(done.answer, done.a, done.b);
   if (!not_drawn.empty()) not_written += (not_written.empty() ? "" : "; ") + not_drawn;
   check_printed();
   check_verified(done.answer);

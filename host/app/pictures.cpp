@@ -84,22 +84,23 @@ void Pictures::write_tables(const Measured& measured) const {
   if (points_) points_->write(points_csv(measured));
 }
 
-std::string Pictures::write(const Answered& done) const {
+std::string Pictures::write(const Answer& answer, const MeshPointer& a,
+                            const MeshPointer& b) const {
   if (!asked_.has_pictures()) return "";
   try {
-    if (done.a == nullptr)
+    if (a == nullptr)
       throw OutputError(certificate_ ? "the run ended before there was a certificate"
                                      : "the run ended before there were bounds of faces");
-    if (certificate_) certificate_->write(certificate_text(done.answer, {*done.a, *done.b}));
+    if (certificate_) certificate_->write(certificate_text(answer, {*a, *b}));
     if (!asked_.shows_cells()) return "";
-    const Measured measured{done.answer, *done.a, *done.b};
+    const Measured measured{answer, *a, *b};
     write_tables(measured);
     for (const Side& side : sides_of(measured)) {
       const std::optional<OutputFile>& field = side.back ? field_.back : field_.there;
       const std::optional<OutputFile>& image = side.back ? image_.back : image_.there;
-      if (field) field->write(field_text(side, done.answer, *asked_.field, style_.options.map));
-      if (field && !side.back) note_on_metres(done.answer, *asked_.field);
-      if (image) image->write(picture_of(side, done.answer, style_));
+      if (field) field->write(field_text(side, answer, *asked_.field, style_.options.map));
+      if (field && !side.back) note_on_metres(answer, *asked_.field);
+      if (image) image->write(picture_of(side, answer, style_));
     }
     if (report_)
       report_->write(report_of(measured, pictures_of(measured, style_), style_, asked_.title));

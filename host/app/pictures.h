@@ -1,14 +1,15 @@
 // The outputs about all of A: its field, a picture, the report, a certificate.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/answer/ask_files.h"
 #include "host/answer/request.h"
 #include "host/base/output_file.h"
 #include "host/show/draw_answer.h"
+#include "vkhausdorff/mesh_io.h"
 
 namespace vkh {
 
@@ -19,8 +20,10 @@ class Pictures {
   /// Throws UsageError if a file cannot be written, is one of `inputs`, or has an unknown ending.
   Pictures(const Outputs& asked, bool symmetric, const std::vector<std::string>& inputs);
 
-  /// Returns what could not be written, and why; empty if nothing.
-  std::string write(const Answered& done) const;
+  /// Returns what could not be written, and why; empty if nothing. `a` and `b`: the meshes as they
+  /// were measured; null where the run was ended before it had all that they show.
+  using MeshPointer = std::shared_ptr<const ReadMesh>;
+  std::string write(const Answer& answer, const MeshPointer& a, const MeshPointer& b) const;
 
  private:
   struct Files {

@@ -121,8 +121,8 @@ Alive& alive() {
 /// A pair that was put.
 class GivenPair : public StreamedPair {
  public:
-  GivenPair(size_t index, MeshGiven a, MeshGiven b, const Pulled& of)
-      : index(index), a_(std::move(a)), b_(std::move(b)), of_(of) {}
+  GivenPair(size_t number, MeshGiven a, MeshGiven b, const Pulled& of)
+      : index(number), a_(std::move(a)), b_(std::move(b)), of_(of) {}
 
   void read() override {
     const AskedOfAll& asked = of_.asked;

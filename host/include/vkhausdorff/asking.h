@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <stop_token>
+#include <thread>
 
 #include "vkhausdorff/answer.h"
 #include "vkhausdorff/mesh_io.h"
@@ -15,20 +16,25 @@
 
 namespace vkh {
 
-/// Threads may share an Asking. It never leaves a thread behind.
+class AskingState;
+
+/// Threads may share an Asking. It never leaves a thread behind, but by leave().
 class Asking {
  public:
   using Deadline = std::chrono::steady_clock::time_point;
 
-  /// Begins at once. `question`: of its members, files, devices and hashes are not looked at;
-  /// budget.time_limit_s counts from now and is for all work. `solvers`: one, or several on
-  /// devices of their own for one direction, which share A's faces; the first also surveys and
-  /// proves. They must outlive the Asking, and no other code may use them meanwhile. `stop`: a
-  /// request ends the work as cancel() does. Throws UsageError for null meshes, for no Solver, and
-  /// for a question whose members do not go together, whatever the meshes are.
+  /// Begins at once, on a thread; where none is to be had, it returns once all work is done.
+  /// `question`: of its members, files, devices and hashes are not looked at; budget.time_limit_s
+  /// counts from now and is for all work. `solvers`: one, or several on devices of their own for
+  /// one direction, which share A's faces; the first also surveys and proves. They must outlive the
+  /// Asking, and no other code may use them meanwhile. `stop`: a request ends the work as cancel()
+  /// does. Throws UsageError for null meshes, for no Solver, and for a question whose members do
+  /// not go together, whatever the meshes are.
   Asking(Question question, std::shared_ptr<const ReadMesh> a, std::shared_ptr<const ReadMesh> b,
          std::span<Solver* const> solvers, std::stop_token stop = {});
-  /// Cancels what is not done, and waits.
+  /// Begins with what a program has made of a question and files.
+  explicit Asking(std::shared_ptr<AskingState> state);
+  /// Cancels what is not done, and waits, unless leave() came.
   ~Asking();
   Asking(const Asking&) = delete;
   Asking& operator=(const Asking&) = delete;
@@ -44,10 +50,13 @@ class Asking {
   /// Waits until all work is done. Throws UsageError, InputError, DeviceError and what else Solver
   /// throws.
   Answer answer() const;
+  /// Waits for nothing any more: a driver may hold the thread, which goes on with all that it uses.
+  /// The process must then end without exit handlers, by std::_Exit or quick_exit.
+  void leave();
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::shared_ptr<AskingState> state_;
+  std::thread thread_;
 };
 
 }  // namespace vkh
