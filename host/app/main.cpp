@@ -137,7 +137,8 @@ void take_answer(Answered& done) {
 /// Returns the answer, or writes the error to the outputs and throws it.
 Answered answer_for(const Question& question, const Stop& stop, Destinations& destinations) {
   try {
-    Answered done{.asked = std::make_unique<Asked>(question, stop)};
+    Answered done;
+    done.asked = std::make_unique<Asked>(question, stop);
     take_answer(done);
     done.answer.waits.total = stop.elapsed_s() * 1000;
     return done;
