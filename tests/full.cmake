@@ -29,7 +29,7 @@ if(NOT VKH_SANITIZE)
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
                     proven_placing batch_killed clang_all driver_lavapipe128_more platform_arm64 platform_libcxx
                      platform_arm64_more platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
-                     slurm dask clusters points_many golden)
+                     slurm dask clusters points_many)
   # A program of its own whose one test is not a default one is built by vkh_full.
   foreach(source IN LISTS VKH_TEST_SOURCES)
     get_filename_component(name ${source} NAME_WE)
@@ -66,7 +66,7 @@ vkh_label(full ${all})
 vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
                   vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
                   python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs simplify_program
-                  align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test golden)
+                  align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test)
 # The programs of these tests, and the readers' fuzzer: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)
 add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz)

@@ -1,10 +1,35 @@
 #include "host/answer/csv.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "vkhausdorff/error.h"
 
 namespace vkh {
+namespace {
+
+// Quotes the cell if it has to.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + "\"";
+}
+
+}  // namespace
+
+std::string csv_line(const std::vector<std::string>& cells, const char* end) {
+  std::string line;
+  for (const std::string& text : cells) line += (&text == cells.data() ? "" : ",") + cell(text);
+  return line + end;
+}
+
+std::string csv_bound(double value, Rounding rounding) {
+  return std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : "";
+}
 
 bool CsvReader::separates(int c) {
   if (!is_decided_ && (c == ',' || c == ';')) {

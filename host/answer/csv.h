@@ -8,7 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "host/base/decimal.h"
+
 namespace vkh {
+
+/// A row of these cells, in quotes where they have to be, with `end` behind it.
+std::string csv_line(const std::vector<std::string>& cells, const char* end = "\n");
+/// An end of an enclosure with JSON's digits; empty where it is infinite.
+std::string csv_bound(double value, Rounding rounding);
 
 class CsvReader {
  public:

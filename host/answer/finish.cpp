@@ -220,13 +220,12 @@ void take_coverage(const Finishing& at, double beyond, Statistics& statistics) {
   const double share = 1 - statistics.bands.back().share.upper;
   statistics.bands.pop_back();
   if (!(share >= kLeast)) return;
-  at.answer.notes.push_back(note_of(NoteCode::kCoverage,
-                                    "at least " + decimal(100 * share, 3, Rounding::kDown) +
-                                        " % of B's area is farther than " +
-                                        decimal(beyond, 3, Rounding::kDown) +
-                                        (at.answer.unit.empty() ? "" : " " + at.answer.unit) +
-                                        " from A: does A lack a part of B?",
-                                    {share, ""}));
+  at.answer.notes.push_back(note_of(
+      NoteCode::kCoverage,
+      "at least " + decimal(100 * share, 3, Rounding::kDown) + " % of B's area is farther than " +
+          with_unit(decimal(beyond, 3, Rounding::kDown), at.answer.unit) +
+          " from A: does A lack a part of B?",
+      {share, ""}));
 }
 
 // The second survey knows the first one's shares, and so how narrow f1 is: its own shares need not

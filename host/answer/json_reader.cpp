@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "host/answer/json_text.h"
 #include "host/base/from_chars.h"
 
 namespace vkh {
@@ -70,21 +71,16 @@ bool is_before(const std::string& version, const char* other) {
   return numbers(version) < numbers(other);
 }
 
-/// Bytes that are no UTF-8 are replaced where a text is written.
-std::string as_in_json(const std::string& text) {
-  return parse_json(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
-      .get<std::string>();
-}
-
-std::array<double, 4> row_in(const Json& json, const char* key) {
-  constexpr const char* kExpected = "array of four rows of four numbers";
-  std::array<double, 4> row{};
-  if (!json.is_array() || json.size() != row.size()) refuse_kind(key, kExpected);
-  for (size_t i = 0; i < row.size(); ++i) {
-    if (!json[i].is_number()) refuse_kind(key, kExpected);
-    row[i] = json[i].get<double>();
+/// An array of so many numbers.
+template <size_t kCount>
+std::array<double, kCount> numbers_in(const Json& json, const char* key, const char* expected) {
+  std::array<double, kCount> numbers{};
+  if (!json.is_array() || json.size() != kCount) refuse_kind(key, expected);
+  for (size_t i = 0; i < kCount; ++i) {
+    if (!json[i].is_number()) refuse_kind(key, expected);
+    numbers[i] = json[i].get<double>();
   }
-  return row;
+  return numbers;
 }
 
 }  // namespace
@@ -180,7 +176,7 @@ void JsonReader::said(const char* key, std::string& kept, const Answer& answer) 
   text(key, kept);
   const bool is_compared = compares_ && is_of_this_version();
   const std::optional<std::string> implied = is_compared ? implied_words(answer) : std::nullopt;
-  if (implied && kept != *implied && kept != as_in_json(*implied))
+  if (implied && kept != *implied && kept != in_utf8(*implied))
     throw InputError(std::string(key) + " are not those of the answer");
 }
 
@@ -352,31 +348,30 @@ void JsonReader::texts(const char* key, std::vector<std::string>& texts) {
 }
 
 void JsonReader::vector(const char* key, DVec3& v) {
-  const Json* rows = compares_ ? nullptr : array(key);
-  if (rows == nullptr) return;
-  const bool is_vector =
-      rows->size() == 3 &&
-      std::all_of(rows->begin(), rows->end(), [](const Json& x) { return x.is_number(); });
-  if (!is_vector) refuse_kind(key, "array of three numbers");
-  v = {(*rows)[0].get<double>(), (*rows)[1].get<double>(), (*rows)[2].get<double>()};
+  const Json* json = unread(key);
+  if (json == nullptr) return;
+  const auto [x, y, z] = numbers_in<3>(*json, key, "array of three numbers");
+  v = {x, y, z};
 }
 
 void JsonReader::two_numbers(const char* key, double& x, double& y) {
-  const Json* rows = compares_ ? nullptr : array(key);
-  if (rows == nullptr) return;
-  if (rows->size() != 2 || !(*rows)[0].is_number() || !(*rows)[1].is_number())
-    refuse_kind(key, "array of two numbers");
-  x = (*rows)[0].get<double>();
-  y = (*rows)[1].get<double>();
+  const Json* json = unread(key);
+  if (json == nullptr) return;
+  const auto numbers = numbers_in<2>(*json, key, "array of two numbers");
+  x = numbers[0];
+  y = numbers[1];
 }
 
 void JsonReader::matrix(const char* key, std::optional<MatrixRows>& matrix) {
+  constexpr const char* kExpected = "array of four rows of four numbers";
   const Json* json = unread(key);
   if (json == nullptr || json->is_null()) return;
   if (array_in(*json, key).size() != 4) refuse_kind(key, "array of four rows");
   matrix.emplace();
-  for (size_t i = 0; i < matrix->size(); ++i) (*matrix)[i] = row_in((*json)[i], key);
-  if (row_in((*json)[3], key) != std::array{0.0, 0.0, 0.0, 1.0}) refuse_kind(key, "map of points");
+  for (size_t i = 0; i < matrix->size(); ++i)
+    (*matrix)[i] = numbers_in<4>((*json)[i], key, kExpected);
+  if (numbers_in<4>((*json)[3], key, kExpected) != std::array{0.0, 0.0, 0.0, 1.0})
+    refuse_kind(key, "map of points");
 }
 
 void JsonReader::named_counts(const char* key, std::vector<CullCount>& counts) {

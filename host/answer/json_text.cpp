@@ -16,6 +16,11 @@ bool is_utf8(const std::string& text) {
   }
 }
 
+std::string in_utf8(const std::string& text) {
+  return parse_json(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
 std::string& JsonText::value() {
   if (!is_first_) text_ += ',';
   is_first_ = false;

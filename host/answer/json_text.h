@@ -13,6 +13,8 @@ namespace vkh {
 
 /// Whether a text can stand in JSON as it is.
 bool is_utf8(const std::string& text);
+/// The text as JSON has it: bytes that are no UTF-8 are replaced.
+std::string in_utf8(const std::string& text);
 
 /// A tree of MemberWriter.
 class JsonText {

@@ -89,12 +89,20 @@ std::string github(const std::string& text, bool is_property) {
   return out;
 }
 
-bool is_undecided(const Answer& answer) {
-  return answer.max ? verdict_of(answer) == Verdict::kUndecided
-                    : interval_of(answer).status != Status::kClosed;
-}
-bool is_failed(const Answer& answer) {
-  return answer.max && verdict_of(answer) == Verdict::kBeyond;
+/// What build servers show of an outcome.
+struct Shown {
+  const char *element, *type;  ///< of JUnit; empty: the case passed
+  const char *level, *mark;    ///< of GitHub
+};
+
+const Shown& shown(Outcome outcome) {
+  static constexpr Shown kPassed{"", "", "notice", ":white_check_mark:"};
+  static constexpr Shown kAll[] = {{"failure", "beyond the limit", "error", ":x:"},
+                                   {"error", "no answer", "error", ":x:"},
+                                   {"error", "undecided", "warning", ":grey_question:"},
+                                   kPassed,
+                                   kPassed};
+  return kAll[static_cast<size_t>(outcome)];
 }
 
 std::string max_text(const Asked& max) {
@@ -114,29 +122,22 @@ std::string case_xml(const JunitCase& one) {
   const std::string words = in_xml(one.words);
   std::string text = "<testcase classname=\"vkhausdorff." + one.command + "\" name=\"" +
                      in_xml(one.name) + "\" time=\"" + seconds_text(one.seconds) + "\">\n";
-  if (!one.element.empty()) {
-    text += "<" + one.element + " type=\"" + one.type + "\" message=\"" + words + "\">" + words +
-            "</" + one.element + ">\n";
-  }
+  const auto& [element, type, level, mark] = shown(one.outcome);
+  if (*element != '\0')
+    text += std::string("<") + element + " type=\"" + type + "\" message=\"" + words + "\">" +
+            words + "</" + element + ">\n";
   text += "<system-out>" + words;
   for (const std::string& note : one.notes) text += "\n" + in_xml(note);
   return text + "</system-out>\n</testcase>\n";
 }
 
 JunitCase case_of(const Answer& answer) {
-  JunitCase one{.command = answer.command,
-                .name = case_name(answer),
-                .words = in_words(answer),
-                .seconds = answer.waits.total / 1000};
-  one.notes = server_notes(answer);
-  if (is_failed(answer)) {
-    one.element = "failure";
-    one.type = "beyond the limit";
-  } else if (is_undecided(answer)) {
-    one.element = "error";
-    one.type = "undecided";
-  }
-  return one;
+  return {.command = answer.command,
+          .name = case_name(answer),
+          .words = in_words(answer),
+          .outcome = outcome_of(answer),
+          .seconds = answer.waits.total / 1000,
+          .notes = server_notes(answer)};
 }
 
 }  // namespace
@@ -159,8 +160,9 @@ std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
   size_t failures = 0, errors = 0;
   double seconds = 0;
   for (const JunitCase& one : cases) {
-    failures += one.element == "failure" ? 1U : 0U;
-    errors += one.element == "error" ? 1U : 0U;
+    const std::string_view element = shown(one.outcome).element;
+    failures += element == "failure" ? 1U : 0U;
+    errors += element == "error" ? 1U : 0U;
     seconds += one.seconds;
   }
   const std::string counts = "tests=\"" + std::to_string(cases.size()) + "\" failures=\"" +
@@ -187,11 +189,8 @@ std::string pair_name(const std::string& a, const std::string& b, bool both,
 }
 
 std::string to_junit(const Failure& failure, const std::string& name) {
-  const JunitCase one{.command = "gate",
-                      .name = name,
-                      .words = failure.message,
-                      .element = "error",
-                      .type = "no answer"};
+  const JunitCase one{
+      .command = "gate", .name = name, .words = failure.message, .outcome = Outcome::kNoAnswer};
   return to_junit({&one, 1}, "", "");
 }
 
@@ -199,10 +198,12 @@ std::string github_line(const GithubAnnotation& annotation) {
   const std::string& file = annotation.file;
   std::string words = annotation.words;
   for (const std::string& note : annotation.notes) words += "\n" + printable(note);
-  return "::" + annotation.level + " " +
+  return std::string("::") + shown(annotation.outcome).level + " " +
          (file.empty() ? "" : "file=" + github(printable(file), true) + ",") +
          "title=" + github(printable(annotation.title), true) + "::" + github(words, false) + "\n";
 }
+
+const char* github_mark(Outcome outcome) { return shown(outcome).mark; }
 
 std::string github_code(const std::string& text) {
   std::string out = "`";
@@ -214,8 +215,7 @@ std::string github_code(const std::string& text) {
 }
 
 std::string github_annotation(const Answer& answer) {
-  const char* level = is_failed(answer) ? "error" : is_undecided(answer) ? "warning" : "notice";
-  return github_line({.level = level,
+  return github_line({.outcome = outcome_of(answer),
                       .file = answer.inputs[0].path,
                       .title = "vkhausdorff " + answer.command,
                       .words = in_words(answer),
@@ -223,18 +223,15 @@ std::string github_annotation(const Answer& answer) {
 }
 
 std::string github_annotation(const Failure& failure) {
-  return github_line({.level = "error",
+  return github_line({.outcome = Outcome::kNoAnswer,
                       .file = failure.file,
                       .title = "vkhausdorff",
                       .words = printable(failure.message)});
 }
 
 std::string github_summary(const Answer& answer) {
-  const char* mark = is_failed(answer)      ? ":x:"
-                     : is_undecided(answer) ? ":grey_question:"
-                                            : ":white_check_mark:";
-  std::string text = std::string("### ") + mark + " vkhausdorff " + answer.command + "\n\n" +
-                     github_code(in_words(answer)) + "\n\n";
+  std::string text = std::string("### ") + github_mark(outcome_of(answer)) + " vkhausdorff " +
+                     answer.command + "\n\n" + github_code(in_words(answer)) + "\n\n";
   text += "| | |\n|---|---|\n| A | " + github_code(answer.inputs[0].path) + " |\n| B | " +
           github_code(answer.inputs[1].path) + " |\n";
   if (answer.max) text += "| max | " + github_code(answer.max->length.requested) + " |\n";

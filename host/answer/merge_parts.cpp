@@ -91,6 +91,23 @@ void check_alike(const Part& part, const Part& first) {
   same(here.version, there.version, "version");
 }
 
+/// "1, 2, 5": the numbers below `all` that no part has, five of them at most.
+std::string missing_parts(const std::vector<Part>& parts, uint64_t all) {
+  constexpr uint64_t kMostNamed = 5;
+  std::string text;
+  auto part = parts.begin();
+  for (uint64_t index = 0, missing = 0; index < all; ++index) {
+    if (part != parts.end() && part->answer.part->index == index) {
+      ++part;
+    } else if (++missing > kMostNamed) {
+      return text + "..";
+    } else {
+      text += (text.empty() ? "" : ", ") + std::to_string(index);
+    }
+  }
+  return text;
+}
+
 void check_complete(const std::vector<Part>& parts) {
   const WrittenAnswer& at = *parts[0].written;
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -102,20 +119,10 @@ void check_complete(const std::vector<Part>& parts) {
       reject(of_it.file, of_it.place, "part " + std::to_string(part.index) + " once more",
              "each part once");
   }
-  std::string missing;
-  uint64_t next = 0, count = 0;
-  for (const Part& part : parts) {
-    const uint64_t index = part.answer.part->index;
-    for (; next < index && ++count <= 5; ++next)
-      missing += (missing.empty() ? "" : ", ") + std::to_string(next);
-    next = index + 1;
-  }
   const uint64_t all = parts[0].answer.part->count;
-  for (; next < all && ++count <= 5; ++next)
-    missing += (missing.empty() ? "" : ", ") + std::to_string(next);
+  const std::string missing = missing_parts(parts, all);
   if (!missing.empty())
-    reject(at.file, at.place, "without part " + missing + (count > 5 ? ".." : ""),
-           "all " + std::to_string(all) + " parts");
+    reject(at.file, at.place, "without part " + missing, "all " + std::to_string(all) + " parts");
 }
 
 /// Parses the answers, checks that they are all the parts of one comparison, each once, and returns
@@ -139,26 +146,13 @@ const Part& farthest(const std::vector<Part>& parts) {
   });
 }
 
-/// Adds up by name: parts may be of devices that name other bounds.
-void add_culled(const Report& part, std::vector<CullCount>& all) {
-  for (const CullCount& one : part.culled) {
-    const auto known = std::find_if(all.begin(), all.end(),
-                                    [&](const CullCount& c) { return c.name == one.name; });
-    if (known == all.end()) {
-      all.push_back(one);
-    } else {
-      known->candidates += one.candidates;
-    }
-  }
-}
-
 /// Takes the largest of what parts that ran apart did at the same time.
 void take_largest(const Report& part, Report& all) {
   all.known_lower = std::max(all.known_lower, part.known_lower);
   all.peak_frontier = std::max(all.peak_frontier, part.peak_frontier);
   all.workspace_bytes = std::max(all.workspace_bytes, part.workspace_bytes);
   all.times.wall_ms = std::max(all.times.wall_ms, part.times.wall_ms);
-  add_culled(part, all.culled);
+  add_culled(part.culled, all.culled);
 }
 
 /// Joins the reports, the one that has the witness first: its device, switches and check are the

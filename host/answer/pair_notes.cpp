@@ -24,10 +24,6 @@ std::string number(double value) { return number_text(value, std::chars_format::
 
 std::string short_number(double value) { return number_text(value, std::chars_format::general, 3); }
 
-std::string with_unit(double value, const std::string& unit) {
-  return number(value) + (unit.empty() ? "" : " " + unit);
-}
-
 /// A's extent over B's on each axis that counts.
 struct Ratio {
   char axis;
@@ -142,7 +138,7 @@ std::optional<Note> note_on_place(const Box& a, const Box& b, const std::string&
   if (!apart && !(centres > kApart * diagonal(b))) return std::nullopt;
   return note_of(NoteCode::kApart,
                  std::string(apart ? "the boxes of A and B do not meet, and their" : "the boxes'") +
-                     " centres are " + with_unit(centres, unit) + " apart, A's by (" +
+                     " centres are " + with_unit(number(centres), unit) + " apart, A's by (" +
                      short_number(shift.x) + ", " + short_number(shift.y) + ", " +
                      short_number(shift.z) + "): does A lie where B does?",
                  {centres, unit});

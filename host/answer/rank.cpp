@@ -11,11 +11,20 @@ bool has_limit(const Result& result) {
   return result.has_answer() && result.answer.max && result.answer.max->limit.beyond > 0;
 }
 
+namespace {
+
+Outcome outcome_by(ExitCode code, const Answer& answer) {
+  if (code == kExitBeyond) return Outcome::kBeyond;
+  if (code == kExitNotClosed) return Outcome::kOpen;
+  return answer.max ? Outcome::kWithin : Outcome::kClosed;
+}
+
+}  // namespace
+
+Outcome outcome_of(const Answer& answer) { return outcome_by(code_of(answer), answer); }
+
 Outcome outcome_of(const Result& result) {
-  if (!result.has_answer()) return Outcome::kNoAnswer;
-  if (result.code == kExitBeyond) return Outcome::kBeyond;
-  if (result.code == kExitNotClosed) return Outcome::kOpen;
-  return !result.answer.max ? Outcome::kClosed : Outcome::kWithin;
+  return result.has_answer() ? outcome_by(result.code, result.answer) : Outcome::kNoAnswer;
 }
 
 const char* outcome_word(const Result& result) {

@@ -7,14 +7,6 @@
 
 namespace vkh {
 
-/// The outcomes of a pair, the worst first.
-enum class Outcome {
-  kBeyond,    ///< beyond its limit
-  kNoAnswer,  ///< a failure
-  kOpen,      ///< undecided, or not closed
-  kClosed,    ///< an interval, since there was no limit
-  kWithin,    ///< within its limit
-};
 /// Whether there is an answer, with a limit that is above 0.
 bool has_limit(const Result& result);
 

@@ -11,27 +11,14 @@
 namespace vkh {
 namespace {
 
-std::string length_words(const std::string& number, const std::string& unit) {
-  return unit.empty() ? number : number + " " + unit;
-}
-
-/// The limit as it was typed: "0.1 mm", "0.1 % of A's diagonal".
-std::string asked_words(const SimplifyAnswer& answer) {
-  const std::string& text = answer.max.requested;
-  const std::string digits = text.substr(0, text.find_first_not_of("0123456789.eE+-"));
-  if (answer.max.of == Length::Of::kUnit) return digits + " " + answer.max.unit;
-  if (answer.max.of == Length::Of::kFiles) return length_words(digits, answer.unit);
-  return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
-}
-
 /// The limit and the place that it is counted from; a share of A's diagonal names A itself.
 std::string near_words(const SimplifyAnswer& answer) {
   const bool names_a = answer.max.of == Length::Of::kDiagonal;
-  return asked_words(answer) + (names_a ? "" : " of A");
+  return typed_in_words(answer.max, answer.unit) + (names_a ? "" : " of A");
 }
 
 std::string largest_words(const Deviation& deviation, const std::string& unit) {
-  return length_words(decimal(deviation.interval.upper, 4, Rounding::kUp), unit);
+  return with_unit(decimal(deviation.interval.upper, 4, Rounding::kUp), unit);
 }
 
 const char* ways_words(const SimplifyAnswer& answer) {
@@ -92,7 +79,7 @@ std::string in_words(const SimplifyAnswer& answer) {
   const SimplifiedFile& file = answer.files[0];
   const CertifiedInterval& found = file.deviation.interval;
   return grouped(file.counts.faces) + " of " + all + " (largest deviation " +
-         length_words(decimal_inside(found.upper, found.lower, found.upper, 4), answer.unit) + ")";
+         with_unit(decimal_inside(found.upper, found.lower, found.upper, 4), answer.unit) + ")";
 }
 
 void print_table(std::ostream& out, const SimplifyAnswer& answer) {

@@ -169,7 +169,7 @@ std::optional<PlacedInput> placed_of(const Question& question, const Mesh& a) {
 
 /// A figure as people read it: rounded up, and its unit.
 std::string rms_text(double rms, const Answer& answer) {
-  return decimal(rms, 3, Rounding::kUp) + (answer.unit.empty() ? "" : " " + answer.unit);
+  return with_unit(decimal(rms, 3, Rounding::kUp), answer.unit);
 }
 
 /// A fit is no proof: what it found is told with it.
@@ -226,12 +226,12 @@ void add_note_on_stretch(const Box& box, Answer& answer) {
                 "the matrix is no exact rotation: it stretches A by more than 1e308 %"));
     return;
   }
-  answer.notes.push_back(note_of(
-      NoteCode::kStretch,
-      "the matrix is no exact rotation: it stretches A by up to " +
-          decimal(100 * stretch, 3, Rounding::kUp) + " %, which moves its points by up to " +
-          decimal(moved, 3, Rounding::kUp) + (answer.unit.empty() ? "" : " " + answer.unit),
-      {moved, answer.unit}));
+  answer.notes.push_back(note_of(NoteCode::kStretch,
+                                 "the matrix is no exact rotation: it stretches A by up to " +
+                                     decimal(100 * stretch, 3, Rounding::kUp) +
+                                     " %, which moves its points by up to " +
+                                     with_unit(decimal(moved, 3, Rounding::kUp), answer.unit),
+                                 {moved, answer.unit}));
 }
 
 }  // namespace

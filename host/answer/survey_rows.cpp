@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "host/answer/end_words.h"
 #include "host/answer/figures.h"
 #include "host/base/decimal.h"
 #include "vkhausdorff/answer.h"
@@ -23,8 +24,7 @@ std::string enclosure(const Enclosure& e, const std::string& unit) {
   text += number(e.lower, gap, Rounding::kDown);
   text += ", ";
   text += number(e.upper, gap, Rounding::kUp);
-  text += unit.empty() ? "]" : "] " + unit;
-  return text;
+  return with_unit(text + "]", unit);
 }
 
 // What a figure probably is, with the digits that matter beside `gap`, or as many as are inside.
@@ -107,23 +107,8 @@ std::string inside_in_words(const SignedFigures& sides) {
   return "";
 }
 
-const char* reason_of(SurveyEnd end) {
-  switch (end) {
-    case SurveyEnd::kEffort:
-      return "its effort was used";
-    case SurveyEnd::kTime:
-      return "its time ended";
-    case SurveyEnd::kCancelled:
-      return "it was interrupted";
-    case SurveyEnd::kMemory:
-      return "there was no memory for it";
-    default:
-      return "no split narrows it more";
-  }
-}
-
 std::string end_text(const SurveyResult& survey) {
-  return std::string(": ") + reason_of(survey.ended) +
+  return std::string(": ") + end_words(survey.ended).reason +
          " before all that was asked was met, and all is true as it is";
 }
 
@@ -141,7 +126,7 @@ std::string counts_text(const Enclosure& share, uint64_t points) {
 std::string kept_text(const Statistics& s, const std::string& unit) {
   const std::string length = length_in_words({s.max_distance, s.max_distance});
   if (s.kept->upper == 0) return "none: nothing is within " + length;
-  const std::string within = " within " + length + (unit.empty() ? "" : " " + unit);
+  const std::string within = " within " + with_unit(length, unit);
   if (s.points > 0)
     return "of the " + counts_text(*s.kept, s.points) + " of " + std::to_string(s.points) +
            " points, each alike, that are" + within + ": " + share_text(*s.kept);
@@ -149,8 +134,8 @@ std::string kept_text(const Statistics& s, const std::string& unit) {
 }
 
 std::string within_text(const AnswerFigure& band, const std::string& unit) {
-  return figure(in_percent(band.value), "%") + " within " + length_in_words({band.at, band.at}) +
-         (unit.empty() ? "" : " " + unit);
+  return figure(in_percent(band.value), "%") + " within " +
+         with_unit(length_in_words({band.at, band.at}), unit);
 }
 
 /// Why no effort narrows it.
@@ -270,10 +255,6 @@ std::string likely_text(const Enclosure& e, double least_gap) {
   return likely(e, std::max(e.upper - e.lower, least_gap));
 }
 
-std::string in_unit(const std::string& text, const std::string& unit) {
-  return unit.empty() ? text : text + " " + unit;
-}
-
 std::string goal_text(const AnswerFigure& figure) {
   if (figure.is_met) return "";
   return figure.jump ? "; a jump of the distribution: no --effort narrows it"
@@ -297,7 +278,7 @@ std::string share_metric_text(const AnswerFigure& share, const std::string& of) 
 std::string angle_text(double degrees) { return " and " + shortest_decimal(degrees) + " degrees"; }
 
 std::string distance_text(const Answer& answer, double distance) {
-  return in_unit(length_in_words({distance, distance}), answer.unit);
+  return with_unit(length_in_words({distance, distance}), answer.unit);
 }
 
 /// The figures that the first line has where none is asked for by name.
@@ -323,7 +304,7 @@ std::string metrics_in_words(const Answer& answer) {
     const Enclosure& e = figure.value;
     text += (text.empty() ? "" : ", ") + figure.name + " ";
     text += figure.kind == FigureKind::kMetric
-                ? in_unit(likely_text(e, 1e-3 * e.lower), unit_of(answer.unit, figure.power))
+                ? with_unit(likely_text(e, 1e-3 * e.lower), unit_of(answer.unit, figure.power))
                 : likely_text(in_percent(e), kShownPercent) + " % within " +
                       distance_text(answer, figure.at);
   }

@@ -159,13 +159,12 @@ std::string verified_text(const WitnessCheck& check) {
 }
 
 std::string coverage_text(const CoverageCheck& c) {
-  return printed("%llu faces whole, ", static_cast<Count>(c.whole)) +
-         printed("%llu waiting, ", static_cast<Count>(c.waiting)) +
-         printed("%llu not accounted for: ", static_cast<Count>(c.wrong)) +
+  return printed("%llu faces whole, %llu waiting, %llu not accounted for: ", Count{c.whole},
+                 Count{c.waiting}, Count{c.wrong}) +
          (c.holds ? "nothing is lost" : "SOMETHING IS LOST");
 }
 
-void print_direction(std::ostream& out, const Answer& answer, bool back) {
+void print_search(std::ostream& out, const Answer& answer, bool back) {
   const Report& r = back ? *answer.b_to_a : answer.a_to_b;
   const auto place = [&](const SurfacePoint& p, bool of_b) {
     return (of_b ? "B " : "A ") + at(p, answer.inputs[of_b ? 1 : 0].are_points);
@@ -196,9 +195,9 @@ std::string seconds(double ms) { return printed("%.3g s", ms / 1000); }
 void print_proof(std::ostream& out, const std::optional<Proof>& proof) {
   if (!proof) return;
   print_row(out, "certificate",
-            printed("%llu leaves, ", Count{proof->leaves}) +
-                printed("%llu of them cut, ", Count{proof->cut_leaves}) +
-                printed("%llu bytes, in ", Count{proof->bytes}) + seconds(proof->ms));
+            printed("%llu leaves, %llu of them cut, %llu bytes, in ", Count{proof->leaves},
+                    Count{proof->cut_leaves}, Count{proof->bytes}) +
+                seconds(proof->ms));
 }
 
 std::string times_text(const Answer& answer) {
@@ -275,7 +274,7 @@ bool is_said_first(NoteCode code) {
 void print_sizes(std::ostream& out, const Answer& answer) {
   if (!answer.inputs[0].box || !answer.inputs[1].box) return;
   const auto sized = [&](const char* name, const Input& input) {
-    return name + size_text(*input.box) + (answer.unit.empty() ? "" : " " + answer.unit) + " (" +
+    return name + with_unit(size_text(*input.box), answer.unit) + " (" +
            printable(file_name_of(input.path)) + ")";
   };
   print_row(out, "boxes", sized("A ", answer.inputs[0]) + ", " + sized("B ", answer.inputs[1]));
@@ -290,10 +289,6 @@ std::string enclosed(const Answer& answer, double lower, double upper, Status st
   return (is_upper_sought(answer, lower, upper) ? bounds(lower, upper, gap)
                                                 : "at least " + length_down(answer, lower, gap)) +
          "  " + ending(answer, status);
-}
-
-std::string direction_text(const Answer& answer, const Report& r) {
-  return enclosed(answer, r.lower, r.upper, r.status);
 }
 
 void print_interval(std::ostream& out, const Answer& answer) {
@@ -332,36 +327,30 @@ void print_summary(std::ostream& out, const Answer& answer) {
   if (r.preset != "default") print_row(out, "preset", r.preset);
 }
 
-}  // namespace
-
-namespace {
-
 void print_metrics(std::ostream& out, const Answer& answer) {
   for (const TableRow& row : metrics_rows(answer))
     out << printed("  %-12s ", row.label.c_str()) << row.text << '\n';
 }
 
+void print_direction(std::ostream& out, const Answer& answer, bool back, bool verbose) {
+  const Report& r = back ? *answer.b_to_a : answer.a_to_b;
+  if (answer.b_to_a)
+    print_row(out, back ? "h(B,A)" : "h(A,B)", enclosed(answer, r.lower, r.upper, r.status));
+  print_search(out, answer, back);
+  print_survey(out, answer, back ? answer.survey_b : answer.survey_a);
+  print_proof(out, back ? answer.proof_b : answer.proof_a);
+  if (verbose) print_details(out, r);
+}
+
 }  // namespace
 
 void print_table(std::ostream& out, const Answer& answer, bool verbose) {
-  const Report& r = answer.a_to_b;
   out << in_words(answer) << '\n';
   if (answer.metrics) print_metrics(out, answer);
   print_summary(out, answer);
-  if (verbose) print_names(out, "off", r.switched_off);
-  if (answer.b_to_a) print_row(out, "h(A,B)", direction_text(answer, r));
-  print_direction(out, answer, false);
-  print_survey(out, answer, answer.survey_a);
-  print_proof(out, answer.proof_a);
-  if (verbose) print_details(out, r);
-  if (answer.b_to_a) {
-    const Report& back = *answer.b_to_a;
-    print_row(out, "h(B,A)", direction_text(answer, back));
-    print_direction(out, answer, true);
-    print_survey(out, answer, answer.survey_b);
-    print_proof(out, answer.proof_b);
-    if (verbose) print_details(out, back);
-  }
+  if (verbose) print_names(out, "off", answer.a_to_b.switched_off);
+  print_direction(out, answer, false, verbose);
+  if (answer.b_to_a) print_direction(out, answer, true, verbose);
   print_row(out, "times", times_text(answer));
 }
 

@@ -6,33 +6,14 @@
 #include <utility>
 #include <vector>
 
+#include "host/answer/csv.h"
 #include "host/answer/figures.h"
+#include "host/answer/rank.h"
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
 
 namespace vkh {
 namespace {
-
-// Quotes the cell if it has to.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + "\"";
-}
-
-std::string row_of(const std::vector<std::string>& cells) {
-  std::string row;
-  for (const std::string& text : cells) row += (&text == cells.data() ? "" : ",") + cell(text);
-  return row + "\n";
-}
-
-std::string bound(double value, Rounding rounding) {
-  return std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : "";
-}
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string text;
@@ -59,8 +40,8 @@ std::map<std::string, AnswerFigure> columns_of(const Answer& answer) {
 }
 
 void add_ends(const Enclosure& e, Cells& cells) {
-  cells.push_back(bound(e.lower, Rounding::kDown));
-  cells.push_back(bound(e.upper, Rounding::kUp));
+  cells.push_back(csv_bound(e.lower, Rounding::kDown));
+  cells.push_back(csv_bound(e.upper, Rounding::kUp));
 }
 
 void add_sides(const Answer& answer, Cells& cells) {
@@ -74,7 +55,7 @@ void add_sides(const Answer& answer, Cells& cells) {
   }
   const SignedFigures* sides = sides_of(answer, false);
   const bool has_areas = sides != nullptr && sides->areas;
-  cells.push_back(has_areas ? bound(unsigned_share(*sides->areas), Rounding::kUp) : "");
+  cells.push_back(has_areas ? csv_bound(unsigned_share(*sides->areas), Rounding::kUp) : "");
 }
 
 // Each figure has three columns: what it probably is, and its ends.
@@ -139,7 +120,7 @@ std::string csv_heading(const CsvColumns& with) {
     cells.emplace_back("unsigned_share");
   }
   if (with.metrics) add_names_of_metrics(with, cells);
-  return row_of(cells);
+  return csv_line(cells);
 }
 
 std::string csv_row(const Result& r, const CsvColumns& with) {
@@ -153,8 +134,8 @@ std::string csv_row(const Result& r, const CsvColumns& with) {
                                  std::to_string(static_cast<int>(r.code)),
                                  known(status_name(whole.status)),
                                  answer.max ? verdict_name(verdict_of(answer)) : "",
-                                 known(bound(whole.lower, Rounding::kDown)),
-                                 sought(bound(whole.upper, Rounding::kUp)),
+                                 known(csv_bound(whole.lower, Rounding::kDown)),
+                                 sought(csv_bound(whole.upper, Rounding::kUp)),
                                  sought(shortest_decimal(std::isfinite(whole.gap) ? whole.gap : 0)),
                                  answer.unit,
                                  answer.inputs[0].path,
@@ -168,23 +149,16 @@ std::string csv_row(const Result& r, const CsvColumns& with) {
                                answer.host, answer.started});
   if (with.sides) add_sides(answer, cells);
   if (with.metrics) add_metrics_cells(answer, with, cells);
-  return row_of(cells);
+  return csv_line(cells);
 }
 
 JunitCase junit_case(const Result& r, bool with_run) {
-  JunitCase one{.command = "batch",
-                .name = r.name.id,
-                .words = r.words(),
-                .seconds = with_run ? r.answer.waits.total / 1000 : 0};
-  one.notes = server_notes(r.answer);
-  if (r.code == kExitBeyond) {
-    one.element = "failure";
-    one.type = "beyond the limit";
-  } else if (r.code != kExitClosed) {
-    one.element = "error";
-    one.type = r.has_answer() ? "undecided" : "no answer";
-  }
-  return one;
+  return {.command = "batch",
+          .name = r.name.id,
+          .words = r.words(),
+          .outcome = outcome_of(r),
+          .seconds = with_run ? r.answer.waits.total / 1000 : 0,
+          .notes = server_notes(r.answer)};
 }
 
 }  // namespace vkh

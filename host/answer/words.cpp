@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine/vkhausdorff.h"
+#include "host/answer/end_words.h"
 #include "host/answer/members.h"
 #include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
@@ -13,11 +14,6 @@
 
 namespace vkh {
 namespace {
-
-std::string with_unit(std::string number, const Answer& answer) {
-  if (!answer.unit.empty()) number.append(" ").append(answer.unit);
-  return number;
-}
 
 /// Prints a point to a hundred-thousandth of A's diagonal, which is enough to find it; all digits
 /// are in JSON.
@@ -66,17 +62,11 @@ std::string distance_in_words(const Answer& answer) {
 }
 
 std::string hint(const Answer& answer, Status status) {
-  if (status == Status::kTime) return "; ask for more --time";
-  if (status == Status::kWaves) return "; ask for more --waves";
-  if (status == Status::kMemory) return "; ask for more --memory";
-  if (status == Status::kCancelled) return "; it was interrupted";
-  if (status == Status::kPrecision) {
-    const double delta = std::max(answer.inputs[0].place.delta, answer.inputs[1].place.delta);
-    return delta > 0 ? "; no smaller --tol helps: a surface is known to within " +
-                           decimal(delta, 3, Rounding::kUp)
-                     : "; no smaller --tol helps";
-  }
-  return "; ask for a smaller --tol than " + answer.tolerance.requested;
+  const char* known = end_words(status).hint;
+  if (known == nullptr) return "; ask for a smaller --tol than " + answer.tolerance.requested;
+  const double delta = std::max(answer.inputs[0].place.delta, answer.inputs[1].place.delta);
+  if (status != Status::kPrecision || !(delta > 0)) return known;
+  return std::string(known) + ": a surface is known to within " + decimal(delta, 3, Rounding::kUp);
 }
 
 std::string interval_text(const Answer& answer, const CertifiedInterval& interval) {
@@ -86,22 +76,11 @@ std::string interval_text(const Answer& answer, const CertifiedInterval& interva
   };
   return with_unit("[" + printed(interval.lower, Rounding::kDown) + ", " +
                        printed(interval.upper, Rounding::kUp) + "]",
-                   answer);
+                   answer.unit);
 }
 
-/// The limit for people: "0.1 mm", "0.1 % of A's diagonal".
 std::string limit_text(const Answer& answer, const Length& length) {
-  const std::string& text = length.requested;
-  const std::string digits = text.substr(0, text.find_first_not_of("0123456789.eE+-"));
-  switch (length.of) {
-    case Length::Of::kUnit:
-      return digits + " " + length.unit;
-    case Length::Of::kFiles:
-      return with_unit(digits, answer);
-    case Length::Of::kDiagonal:
-      break;
-  }
-  return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
+  return typed_in_words(length, answer.unit);
 }
 
 std::string limits_in_words(const Answer& answer) {
@@ -113,7 +92,7 @@ std::string limits_in_words(const Answer& answer) {
 /// A length that is known: four digits, or as many as it takes to lie in the enclosure.
 std::string known_length(const Answer& answer, const Enclosure& e) {
   constexpr int kDigits = 4;
-  return with_unit(decimal_inside(e.lower, e.lower, e.upper, kDigits), answer);
+  return with_unit(decimal_inside(e.lower, e.lower, e.upper, kDigits), answer.unit);
 }
 
 /// A distance beyond a limit, as a FAIL begins: the text is never the limit itself, or under it.
@@ -134,7 +113,7 @@ std::string failure_in_words(const Answer& answer, bool back) {
                         : " at a point of " + from;
   if (answer.max->sides) return text + ", beyond both limits, " + limits_in_words(answer);
   if (!faces) return text + ", limit " + limit_text(answer, answer.max->length);
-  return text + ", limit of its face " + with_unit(length_in_words(limit), answer);
+  return text + ", limit of its face " + with_unit(length_in_words(limit), answer.unit);
 }
 
 // Names the unit of the count: a polygon's triangles are more than it.
@@ -160,18 +139,7 @@ std::string percent(double share, double asked, Rounding rounding) {
 std::string survey_hint(const Answer& answer, bool back) {
   const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
   if (!survey) return hint(answer, (back ? *answer.b_to_a : answer.a_to_b).status);
-  switch (survey->ended) {
-    case SurveyEnd::kEffort:
-      return "; ask for more --effort";
-    case SurveyEnd::kTime:
-      return "; ask for more --time";
-    case SurveyEnd::kCancelled:
-      return "; it was interrupted";
-    case SurveyEnd::kMemory:
-      return "; there was no memory for more";
-    default:
-      return "; no more --effort decides it";
-  }
+  return end_words(survey->ended).hint;
 }
 
 /// "at least 99.5 % of A's area is within 0.1 mm of B": as much as the verdict on that mesh says.
@@ -267,7 +235,7 @@ std::string limit_hint(const Answer& answer, const CertifiedInterval& whole) {
   if (!is_rounded || whole.lower < limit.within || whole.upper > limit.beyond)
     return hint(answer, whole.status);
   return "; A's coordinates were rounded, so that its diagonal is known to within " +
-         with_unit(decimal(width_up(of_a.least(), of_a.most()), 3, Rounding::kUp), answer) +
+         with_unit(decimal(width_up(of_a.least(), of_a.most()), 3, Rounding::kUp), answer.unit) +
          ": give the limit as a length";
 }
 
@@ -416,27 +384,7 @@ FieldSummary summary_of(const Answer& answer, const SurveyResult& survey) {
   return summary_of(survey.field, answer.max ? answer.max->limit : Limit{});
 }
 
-const char* stop_reason(Status status) {
-  switch (status) {
-    case Status::kClosed:
-      return "the interval meets the tolerance";
-    case Status::kPrecision:
-      return "what is left cannot be decided in this arithmetic";
-    case Status::kTime:
-      return "the time budget ended";
-    case Status::kWaves:
-      return "the wave budget ended";
-    case Status::kMemory:
-      return "the memory did not hold what had to be refined";
-    case Status::kCancelled:
-      return "it was interrupted";
-    case Status::kPruned:
-      return "it exceeds a lower bound that was known by no more than the tolerance";
-    case Status::kLimit:
-      return "the search stopped once the verdict was certain";
-  }
-  return "unknown";
-}
+const char* stop_reason(Status status) { return end_words(status).reason; }
 
 const char* stop_reason(const Answer& answer, Status status) {
   if (status == Status::kLimit && answer.max && answer.max->worst)
@@ -450,10 +398,10 @@ bool is_upper_sought(const Answer& answer, double lower, double upper) {
 }
 
 std::string length_down(const Answer& answer, double length, double gap) {
-  return with_unit(decimal(length, digits_that_matter(length, gap), Rounding::kDown), answer);
+  return with_unit(decimal(length, digits_that_matter(length, gap), Rounding::kDown), answer.unit);
 }
 std::string length_up(const Answer& answer, double length, double gap) {
-  return with_unit(decimal(length, digits_that_matter(length, gap), Rounding::kUp), answer);
+  return with_unit(decimal(length, digits_that_matter(length, gap), Rounding::kUp), answer.unit);
 }
 
 double gap_as_printed(const Answer& answer, double lower, double upper) {

@@ -209,4 +209,17 @@ std::string length_in_words(const Limit& limit) {
   return "about " + decimal(length, 4, Rounding::kDown);
 }
 
+std::string typed_in_words(const Length& length, const std::string& file_unit) {
+  const std::string& text = length.requested;
+  const std::string digits = text.substr(0, text.find_first_not_of("0123456789.eE+-"));
+  if (length.of == Length::Of::kUnit) return with_unit(digits, length.unit);
+  if (length.of == Length::Of::kFiles) return with_unit(digits, file_unit);
+  return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
+}
+
+std::string with_unit(std::string number, const std::string& unit) {
+  if (!unit.empty()) number.append(" ").append(unit);
+  return number;
+}
+
 }  // namespace vkh

@@ -20,15 +20,6 @@ struct OfPair {
   std::string annotation, row;
 };
 
-const char* level_of(Outcome outcome) {
-  const bool is_error = outcome == Outcome::kBeyond || outcome == Outcome::kNoAnswer;
-  return is_error ? "error" : outcome == Outcome::kOpen ? "warning" : "notice";
-}
-
-const char* mark_for(const std::string& level) {
-  return level == "error" ? ":x:" : level == "warning" ? ":grey_question:" : ":white_check_mark:";
-}
-
 /// The path from here of the file that the annotation stands beside: A's, unless the error is of B.
 /// GitHub looks for it as it is written, without resolving "..".
 std::string file_beside(const Result& result, const Entry& entry) {
@@ -41,28 +32,28 @@ std::string file_beside(const Result& result, const Entry& entry) {
 
 OfPair texts_of(const Result& result, const Entry& entry) {
   OfPair pair{.rank = rank_of(result), .annotation = {}, .row = {}};
-  GithubAnnotation one{.level = level_of(pair.rank.outcome),
+  GithubAnnotation one{.outcome = pair.rank.outcome,
                        .file = file_beside(result, entry),
                        .title = "vkhausdorff batch: " + result.name.id,
                        .words = printable(result.words()),
                        .notes = server_notes(result.answer)};
-  pair.row = std::string("| ") + mark_for(one.level) + " | " + github_code(result.name.id) + " | " +
-             github_code(result.words());
+  pair.row = std::string("| ") + github_mark(one.outcome) + " | " + github_code(result.name.id) +
+             " | " + github_code(result.words());
   for (const std::string& note : one.notes) pair.row += "<br>" + github_code(note);
   pair.row += " |\n";
-  if (one.level != "notice" || !one.notes.empty()) pair.annotation = github_line(one);
+  if (one.outcome <= Outcome::kOpen || !one.notes.empty()) pair.annotation = github_line(one);
   return pair;
 }
 
-/// The level of a batch whose worst pair, if there is one, is this.
-std::string level_of(const std::vector<OfPair>& pairs, size_t left) {
-  const std::string level = pairs.empty() ? "notice" : level_of(pairs[0].rank.outcome);
-  return level == "notice" && left > 0 ? "warning" : level;
+/// The outcome of a batch: that of its worst pair, or open where pairs are left.
+Outcome outcome_of(const std::vector<OfPair>& pairs, size_t left) {
+  const Outcome worst = pairs.empty() ? Outcome::kWithin : pairs[0].rank.outcome;
+  return left > 0 ? std::min(worst, Outcome::kOpen) : worst;
 }
 
 std::string summary_of(const std::string& words, const std::vector<OfPair>& pairs,
-                       const std::string& level) {
-  std::string text = std::string("### ") + mark_for(level) + " vkhausdorff batch\n\n" +
+                       Outcome outcome) {
+  std::string text = std::string("### ") + github_mark(outcome) + " vkhausdorff batch\n\n" +
                      github_code(words) + "\n\n| | pair | |\n|---|---|---|\n";
   for (size_t i = 0; i < std::min(pairs.size(), kMostRows); ++i) text += pairs[i].row;
   if (pairs.size() > kMostRows)
@@ -94,8 +85,8 @@ GithubTexts github_texts(const BatchJob& batch) {
   const std::string words = totals.in_words(run);
   GithubTexts texts{
       .annotations = github_line(
-          {.level = "notice", .file = {}, .title = "vkhausdorff batch", .words = words}),
-      .summary = summary_of(words, pairs, level_of(pairs, run.left))};
+          {.outcome = Outcome::kWithin, .file = {}, .title = "vkhausdorff batch", .words = words}),
+      .summary = summary_of(words, pairs, outcome_of(pairs, run.left))};
   for (const OfPair& pair : pairs) texts.annotations += pair.annotation;
   return texts;
 }

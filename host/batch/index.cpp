@@ -61,8 +61,7 @@ std::string deviation_in_words(const Result& result) {
                                              ? whole.upper
                                              : std::numeric_limits<double>::infinity()};
   const std::string text = figure_text(deviation, limit_of(result));
-  const std::string& unit = result.answer.unit;
-  return unit.empty() || text == "not known" ? text : text + " " + unit;
+  return text == "not known" ? text : with_unit(text, result.answer.unit);
 }
 
 void sort_worst_first(std::vector<IndexRow>& rows) {
@@ -116,8 +115,7 @@ std::string more_words(const Result& result) {
   const size_t warning = rest.starts_with("if the inputs are right") ? rest.find("): ") : 0;
   if (warning != 0 && warning != std::string::npos) return rest.substr(0, warning + 1);
   if (!has_limit(result)) return "";
-  const std::string& unit = result.answer.unit;
-  return "limit " + length_in_words(limit_of(result)) + (unit.empty() ? "" : " " + unit);
+  return "limit " + with_unit(length_in_words(limit_of(result)), result.answer.unit);
 }
 
 std::string colours_in_words(const IndexContents& contents) {

@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "host/answer/figures.h"
+#include "host/base/decimal.h"
+#include "host/base/float_environment.h"
 #include "host/base/system.h"
 #include "host/python/python_tree.h"
 #include "host/python/result.h"
+#include "host/solve/join_reports.h"
 
 namespace vkh::python {
 namespace {
@@ -148,18 +151,6 @@ py::object certificate_of(const Answer& answer) {
   return certificate;
 }
 
-void add_culled(std::vector<CullCount>& sum, const std::vector<CullCount>& more) {
-  for (const CullCount& c : more) {
-    const auto same = [&](const CullCount& one) { return one.name == c.name; };
-    const auto known = std::find_if(sum.begin(), sum.end(), same);
-    if (known == sum.end()) {
-      sum.push_back(c);
-    } else {
-      known->candidates += c.candidates;
-    }
-  }
-}
-
 /// Both directions as one report: their interval, the sums of what they counted and took, and the
 /// most of what they held.
 Report report_of_both(const Answer& answer, bool is_forward) {
@@ -178,7 +169,7 @@ Report report_of_both(const Answer& answer, bool is_forward) {
   both.candidates += back.candidates;
   both.queries += back.queries;
   both.peak_frontier = std::max(both.peak_frontier, back.peak_frontier);
-  add_culled(both.culled, back.culled);
+  add_culled(back.culled, both.culled);
   both.workspace_bytes = std::max(both.workspace_bytes, back.workspace_bytes);
   both.host_memory_bytes = std::max(both.host_memory_bytes, back.host_memory_bytes);
   both.times.upload_ms += back.times.upload_ms;
@@ -216,16 +207,38 @@ py::dict transform_of(const Answer& answer) {
   return transform;
 }
 
-void add_limit(const Answer& answer, Result& result) {
+void add_limit(const Answer& answer, py::dict& stats) {
   if (!answer.max) return;
-  result.verdict = verdict_of(answer);
   const std::optional<FaceLimits>& faces = answer.max->faces_a;
   if (faces || answer.max->area)
-    result.stats["max"] = faces ? faces->limit.within : answer.max->limit.within;
-  if (answer.max->area) result.stats["area"] = *answer.max->area;
+    stats["max"] = faces ? faces->limit.within : answer.max->limit.within;
+  if (answer.max->area) stats["area"] = *answer.max->area;
   if (!faces) return;
-  result.stats["faces_within"] = faces->within;
-  result.stats["runs"] = faces->runs;
+  stats["faces_within"] = faces->within;
+  stats["runs"] = faces->runs;
+}
+
+py::dict all_stats_of(const Question& question, const Answer& answer, bool is_forward) {
+  py::dict stats = stats_of(answer, is_forward);
+  add_limit(answer, stats);
+  if (answer.placed) stats["transform"] = transform_of(answer);
+  if (question.certificate) stats["certificate"] = certificate_of(answer);
+  if (answer.metrics) stats["metrics"] = metrics_of(question, answer);
+  return stats;
+}
+
+/// A point of a mesh: its face, its weights of the corners, and its coordinates.
+py::tuple place_of(const SurfacePoint& p) {
+  const auto xyz = [](const DVec3& v) { return py::make_tuple(v.x, v.y, v.z); };
+  return py::make_tuple(p.face, xyz(p.barycentric), xyz(p.point));
+}
+
+/// Both ends as texts, rounded outward.
+py::tuple outward(double lower, double upper) {
+  const FloatEnvironment ours;
+  constexpr int kDigits = 9;
+  return py::make_tuple(decimal(lower, kDigits, Rounding::kDown),
+                        decimal(upper, kDigits, Rounding::kUp));
 }
 
 }  // namespace
@@ -234,35 +247,35 @@ py::list matrix_rows(const MatrixRows& matrix) {
   return members_of("", [&](auto& v) { v.matrix("rows", matrix); })["rows"].cast<py::list>();
 }
 
-Result result_of(const Question& question, const Answer& answer, const MeshPointer& a,
-                 const MeshPointer& b) {
+py::dict parts_of(const Question& question, const Answer& answer, const MeshPointer& a,
+                  const MeshPointer& b) {
   const CertifiedInterval whole = interval_of(answer);
   const bool is_forward = !answer.b_to_a || answer.a_to_b.lower >= answer.b_to_a->lower;
   const Report& r = is_forward ? answer.a_to_b : *answer.b_to_a;
-  Result result;
-  result.lower = whole.lower;
-  result.upper = whole.upper;
-  result.status = whole.status;
-  result.witness_a = r.witness_a;
-  result.witness_b = r.witness_b;
-  if (!is_forward) std::swap(result.witness_a, result.witness_b);
-  result.stats = stats_of(answer, is_forward);
-  result.notes = list_of_notes(answer);
-  add_limit(answer, result);
+  py::dict parts;
+  parts["lower"] = whole.lower;
+  parts["upper"] = whole.upper;
+  parts["status"] = status_name(whole.status);
+  if (answer.max) parts["verdict"] = verdict_name(verdict_of(answer));
+  parts["witness_a"] = place_of(is_forward ? r.witness_a : r.witness_b);
+  parts["witness_b"] = place_of(is_forward ? r.witness_b : r.witness_a);
+  parts["stats"] = all_stats_of(question, answer, is_forward);
+  parts["notes"] = list_of_notes(answer);
   const std::string &path_a = answer.inputs[0].path, &path_b = answer.inputs[1].path;
-  result.survey = survey_of(question, answer, {answer.a_to_b, answer.survey_a, a, path_b});
+  parts["survey"] = survey_of(question, answer, {answer.a_to_b, answer.survey_a, a, path_b});
   if (answer.b_to_a)
-    result.survey_back = survey_of(question, answer, {*answer.b_to_a, answer.survey_b, b, path_a});
-  if (answer.placed) result.stats["transform"] = transform_of(answer);
-  if (question.certificate) result.stats["certificate"] = certificate_of(answer);
-  if (answer.metrics) result.stats["metrics"] = metrics_of(question, answer);
-  return result;
+    parts["survey_back"] =
+        survey_of(question, answer, {*answer.b_to_a, answer.survey_b, b, path_a});
+  return parts;
 }
 
-bool Result::is_upper_sought() const {
-  return verdict != Verdict::kBeyond || stats.contains("area") || is_farthest_known(lower, upper);
+py::object result_of(const py::dict& parts) {
+  return py::module_::import("vkhausdorff._result").attr("made")(**parts);
 }
 
-const char* Result::verdict_name() const { return verdict ? vkh::verdict_name(*verdict) : nullptr; }
+void define_result(py::module_& m) {
+  m.def("_outward", outward);
+  m.def("_is_farthest_known", is_farthest_known);
+}
 
 }  // namespace vkh::python

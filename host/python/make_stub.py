@@ -14,6 +14,7 @@ import re
 import sys
 
 SHOWN = {"__init__", "__new__", "__iter__", "__len__", "__contains__", "__getattr__"}  # besides names without an underscore
+PROPERTIES = {"_Part"}  # what stands for a member that is read alone
 BASES = {"NamedTuple", "_Bounds", "Field"}  # others are the package's own
 
 
@@ -33,7 +34,9 @@ def type_text(node: ast.expr) -> str:
 
 def member_lines(node: ast.stmt) -> list[str]:
     if isinstance(node, ast.AnnAssign):
-        return [f"    {ast.unparse(node.target)}: {type_text(node.annotation)}"]
+        name, kind = ast.unparse(node.target), type_text(node.annotation)
+        is_property = isinstance(node.value, ast.Call) and ast.unparse(node.value.func) in PROPERTIES
+        return ["    @property", f"    def {name}(self) -> {kind}: ..."] if is_property else [f"    {name}: {kind}"]
     if not isinstance(node, ast.FunctionDef) or (node.name.startswith("_") and node.name not in SHOWN):
         return []
     if node.returns is None:

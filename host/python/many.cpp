@@ -74,14 +74,6 @@ AskedOfAll asked_from(const Arguments& given) {
   return asked;
 }
 
-py::object failed(size_t index, const py::object& id, const py::object& error) {
-  Result result;
-  result.index = index;
-  result.id = id;
-  result.error = error;
-  return py::cast(std::move(result));
-}
-
 }  // namespace
 
 /// All that runs on threads of ours. Nothing of it touches Python, but for wait(), which asks it
@@ -238,17 +230,18 @@ py::object PythonStream::take(bool waits) {
   }
   if (!found) return py::none();
   const AskedPair* pair = found->pair.get();
-  Result result;
+  py::dict parts;
   if (found->error) {
-    result.error = exception_of(found->error);
+    parts["error"] = exception_of(found->error);
   } else {
-    result = result_of(pair->question(), pair->answer(), pair->a(), pair->b());
+    parts = parts_of(pair->question(), pair->answer(), pair->a(), pair->b());
   }
-  result.index = dynamic_cast<const GivenPair&>(*found).index;
-  const auto waiting = waiting_.extract(*result.index);
-  result.id = waiting.mapped().id;
+  const size_t index = dynamic_cast<const GivenPair&>(*found).index;
+  const auto waiting = waiting_.extract(index);
+  parts["index"] = index;
+  parts["id"] = waiting.mapped().id;
   bytes_ -= waiting.mapped().bytes;
-  return py::cast(std::move(result));
+  return result_of(parts);
 }
 
 // After a fork the parent's threads and devices are not there, and nothing of them may be touched.
@@ -287,7 +280,6 @@ void define_many(py::module_& m) {
       .def("take", [](const py::object& self,
                       bool waits) { return made<PythonStream>(self, kName).take(waits); })
       .def("close", [](const py::object& self) { made<PythonStream>(self, kName).close(); });
-  m.def("_failed", failed);
 }
 
 }  // namespace vkh::python

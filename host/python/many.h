@@ -44,7 +44,7 @@ class PythonStream {
   uint64_t bytes_ = 0;  // of all that wait
 };
 
-/// Defines the class _Stream of _core, and _failed().
+/// Defines the class _Stream of _core.
 void define_many(pybind11::module_& m);
 
 /// Ends every stream at the end of the interpreter. Never takes the GIL.

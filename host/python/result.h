@@ -1,10 +1,8 @@
-// The result that Python gets: one object for a directed or a symmetric distance, plain values in
-// it.
+// The result that Python gets: _result.py makes it of plain values.
 #pragma once
 
 #include <pybind11/pybind11.h>
 
-#include <optional>
 #include <string>
 
 #include "host/python/mesh.h"
@@ -12,37 +10,20 @@
 
 namespace vkh::python {
 
-/// In a symmetric run, the witness is that of the direction with the larger lower bound, always in
-/// terms of A and B.
-struct Result {
-  double lower = 0, upper = 0;
-  Status status = Status::kClosed;
-  std::optional<Verdict> verdict;  ///< present if a limit was given
-  SurfacePoint witness_a, witness_b;
-  pybind11::dict stats;
-  pybind11::list notes;  ///< dicts of each note
-  pybind11::object survey = pybind11::none(), survey_back = pybind11::none();  ///< for A, for B
-  std::optional<size_t> index = {};           ///< number of a pair in distances()
-  pybind11::object id = pybind11::none();     ///< the pair's id in distances(), if it has one
-  pybind11::object error = pybind11::none();  ///< the exception, instead of an answer
-
-  bool closed() const { return status == Status::kClosed; }
-  /// Whether the upper end was sought: vkh::is_upper_sought() of the answer.
-  bool is_upper_sought() const;
-  /// Returns "pass", "fail", "undecided"; null without a limit.
-  const char* verdict_name() const;
-};
-
-/// Defines the class Result.
-void define_result(pybind11::module_& m);
-
 /// All four rows of a matrix, as the keyword transform takes them.
 pybind11::list matrix_rows(const MatrixRows& matrix);
 
-/// The values of an answer, with the GIL. `a` and `b`: the meshes as they were measured, which
-/// fields keep for their files; null where no field is asked for.
-Result result_of(const Question& question, const Answer& answer, const MeshPointer& a,
-                 const MeshPointer& b);
+/// The parts of a Result by their names in _result.py, with the GIL: of a directed or a symmetric
+/// distance, whose witness is that of the direction with the larger lower bound, always in terms of
+/// A and B. `a` and `b`: the meshes as they were measured, which fields keep for their files; null
+/// where no field is asked for.
+pybind11::dict parts_of(const Question& question, const Answer& answer, const MeshPointer& a,
+                        const MeshPointer& b);
+/// The Result that is made of them. A pair that failed has an `error` alone.
+pybind11::object result_of(const pybind11::dict& parts);
+
+/// Defines what a Result takes from C++.
+void define_result(pybind11::module_& m);
 
 // Python can make objects that no constructor has seen: Solver.__new__, or a subclass that uses
 // itself before super().__init__().

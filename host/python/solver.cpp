@@ -158,12 +158,12 @@ class Listener {
 /// Writes the certificate's file, if there is a proof, and its size into the result. Warns if it
 /// proves less than the interval. Arrays are in no file, so that its hashes are those of their
 /// corners alone.
-void write_certificate(const Given& given, const AskedPair& pair, Result& result) {
-  if (!given.certificate || result.stats["certificate"].is_none()) return;
+void write_certificate(const Given& given, const AskedPair& pair, py::object certificate) {
+  if (certificate.is_none()) return;
   const Answer& answer = pair.answer();
   const std::string text = certificate_text(answer, {*pair.a(), *pair.b()});
   given.certificate->write(text);
-  result.stats["certificate"]["bytes"] = text.size();
+  certificate["bytes"] = text.size();
   const bool is_less = answer.proof_a->upper > answer.a_to_b.upper ||
                        (answer.proof_b && answer.proof_b->upper > answer.b_to_a->upper);
   if (!is_less) return;
@@ -182,7 +182,7 @@ void fit(AskedPair& pair, Solver& solver, const PreparedMesh* prepared) {
   pair.fit(solver, {.goes_on = goes_on}, prepared);
 }
 
-Result answered(const Given& given, Session& session, Session::Key key = 0) {
+py::object answered(const Given& given, Session& session, Session::Key key = 0) {
   AskedPair pair(given.question);
   {
     const FloatEnvironment ours;
@@ -199,9 +199,9 @@ Result answered(const Given& given, Session& session, Session::Key key = 0) {
   session.use(work, key);
   // Raises a KeyboardInterrupt that came too late for a run after it.
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  Result result = result_of(given.question, pair.answer(), pair.a(), pair.b());
-  write_certificate(given, pair, result);
-  return result;
+  const py::dict parts = parts_of(given.question, pair.answer(), pair.a(), pair.b());
+  if (given.certificate) write_certificate(given, pair, parts["stats"]["certificate"]);
+  return result_of(parts);
 }
 
 // A row-major copy: (n,), or (n, 3) of points.
@@ -351,7 +351,7 @@ py::object simplified_levels(const py::args& positional, const py::kwargs& named
   return levels;
 }
 
-Result distance(const py::args& positional, const py::kwargs& named) {
+py::object distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature(
       signature_of(kPyDistance, "distance",
                    {"va", "fa", "vb", "fb", "tol", "symmetric", "progress", "on_progress"}, 4, 6));
@@ -365,7 +365,7 @@ Result distance(const py::args& positional, const py::kwargs& named) {
                   *session_of(arguments));
 }
 
-Result gate(const py::args& positional, const py::kwargs& named) {
+py::object gate(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature(
       signature_of(kPyGate, "gate", {"a", "b", "max", "progress", "on_progress"}, 3, 3));
   const Call call;
@@ -377,7 +377,7 @@ Result gate(const py::args& positional, const py::kwargs& named) {
                   *session_of(arguments));
 }
 
-Result metrics(const py::args& positional, const py::kwargs& named) {
+py::object metrics(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature(
       signature_of(kPyMetrics, "metrics",
                    {"a", "b", "spacing", "affine", "empty", "progress", "on_progress"}, 2, 2));
@@ -447,7 +447,7 @@ std::shared_ptr<Session> PythonSolver::open_session() const {
   return session;
 }
 
-Result PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
+py::object PythonSolver::distance(const py::args& positional, const py::kwargs& named) {
   static const auto* signature = new Signature(signature_of(
       kPySolver, "Solver.distance", {"va", "fa", "tol", "progress", "on_progress"}, 2, 3));
   const Call call;

@@ -9,10 +9,10 @@
 
 namespace vkh::python {
 
-Result distance(const pybind11::args& positional, const pybind11::kwargs& named);
+pybind11::object distance(const pybind11::args& positional, const pybind11::kwargs& named);
 /// Does the same with a limit: the result has a verdict.
-Result metrics(const pybind11::args& positional, const pybind11::kwargs& named);
-Result gate(const pybind11::args& positional, const pybind11::kwargs& named);
+pybind11::object metrics(const pybind11::args& positional, const pybind11::kwargs& named);
+pybind11::object gate(const pybind11::args& positional, const pybind11::kwargs& named);
 /// Returns an Alignment of the package's.
 pybind11::object align(const pybind11::args& positional, const pybind11::kwargs& named);
 /// Returns a Closest of the package's.
@@ -49,7 +49,7 @@ class PythonSolver {
   PythonSolver(const PythonSolver&) = delete;
   PythonSolver& operator=(const PythonSolver&) = delete;
 
-  Result distance(const pybind11::args& positional, const pybind11::kwargs& named);
+  pybind11::object distance(const pybind11::args& positional, const pybind11::kwargs& named);
   pybind11::object closest(const pybind11::args& positional, const pybind11::kwargs& named);
   void close();
 

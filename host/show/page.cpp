@@ -39,8 +39,7 @@ class PageWriter {
       : contents_(contents),
         answer_(*contents.answer),
         limits_(limits),
-        answer_json_(to_json(answer_)),
-        text_{answer_, parse_json(answer_json_)} {
+        answer_json_(to_json(answer_)) {
     sides_.push_back(std::make_unique<PageSide>(contents.a_to_b, contents.look));
     if (contents.b_to_a)
       sides_.push_back(std::make_unique<PageSide>(*contents.b_to_a, contents.look));
@@ -98,14 +97,14 @@ class PageWriter {
   }
 
   std::string assembled(const Meshes& meshes) const {
-    Json view = head_view(text_, contents_.title);
+    Json view = head_view(answer_, contents_.title);
     view["sides"] = Json::array();
     for (const auto& side : sides_) {
       view["sides"].push_back(
-          side_view(text_, {side->drawn, *side->scale, side->counts, side->places}));
+          side_view(answer_, {side->drawn, *side->scale, side->counts, side->places}));
       add_picture(side->given, view["sides"].back());
     }
-    view["record"] = record_view(text_);
+    view["record"] = record_view(answer_);
     view["has_view"] = !meshes.packed.empty();
     view["answer"] = script_json(answer_json_);
     view["data"] = script_json(data_json(meshes).dump());
@@ -232,7 +231,6 @@ class PageWriter {
   const Answer& answer_;
   PageLimits limits_;
   std::string answer_json_;
-  PageText text_;
   std::vector<std::unique_ptr<PageSide>> sides_;
   double top_ = 0, bar_ = 0;
   bool keeps_pictures_ = true;

@@ -1,6 +1,5 @@
 // The record of a page: what was measured, on which device, and how.
-#include <cmath>
-
+#include "host/answer/json_text.h"
 #include "host/base/decimal.h"
 #include "host/show/page_view.h"
 #include "host/show/page_words.h"
@@ -8,21 +7,19 @@
 namespace vkh {
 namespace {
 
-std::string count_text(const Json& number) {
-  if (!number.is_number()) return "not known";
-  return grouped(number.get<uint64_t>());
+std::string text_or(const std::string& text, const char* otherwise) {
+  return text.empty() ? otherwise : in_utf8(text);
 }
 
-std::string text_or(const Json& text, const char* otherwise) {
-  return text.is_string() && !text.get<std::string>().empty() ? text.get<std::string>() : otherwise;
+std::string count_text(const Input& input, uint64_t count) {
+  return input.is_read ? grouped(count) : "not known";
 }
 
 /// A row for both inputs; nothing where both texts are empty.
 template <class Text>
-void add_row(const PageText& page, Json& rows, const char* name, const Text& text,
-             bool is_code = false) {
-  const Json& inputs = page.json["inputs"];
-  const std::string a = text(inputs[0]), b = text(inputs[1]);
+void add_input_row(const Answer& answer, Json& rows, const char* name, const Text& text,
+                   bool is_code = false) {
+  const std::string a = text(answer.inputs[0]), b = text(answer.inputs[1]);
   if (a.empty() && b.empty()) return;
   rows.push_back({{"name", name},
                   {"a", a.empty() ? "0" : a},
@@ -30,12 +27,12 @@ void add_row(const PageText& page, Json& rows, const char* name, const Text& tex
                   {"is_code", is_code}});
 }
 
-void add_count(const PageText& page, Json& rows, const char* name, const char* key,
-               bool even_if_none) {
-  add_row(page, rows, name, [&](const Json& input) {
-    const Json& number = input[key];
-    if (!even_if_none && (!number.is_number() || number == 0)) return std::string();
-    return count_text(number);
+/// A row for a count, where an input has some.
+template <class Count>
+void add_if_any(const Answer& answer, Json& rows, const char* name, const Count& count) {
+  add_input_row(answer, rows, name, [&](const Input& input) {
+    const uint64_t number = input.is_read ? count(input) : 0;
+    return number > 0 ? grouped(number) : std::string();
   });
 }
 
@@ -49,9 +46,9 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string command_text(const Json& json) {
+std::string command_text(const Answer& answer) {
   std::string out = "vkhausdorff";
-  for (const Json& word : json["arguments"]) out += " " + quoted(word.get<std::string>());
+  for (const std::string& word : answer.words) out += " " + quoted(in_utf8(word));
   return out;
 }
 
@@ -61,109 +58,107 @@ std::string duration_text(double ms) {
          (is_short ? "\u00a0ms" : "\u00a0s");
 }
 
-std::string times_text(const PageText& page) {
-  const Json& times = page.json["times"];
-  std::string out = duration_text(times["total_ms"].get<double>()) + " in all: reading " +
-                    duration_text(times["read_ms"].get<double>()) + ", starting " +
-                    duration_text(times["start_ms"].get<double>());
-  out += ", A to B " + duration_text(page.answer.a_to_b.times.wall_ms);
-  if (page.answer.b_to_a) out += ", B to A " + duration_text(page.answer.b_to_a->times.wall_ms);
+std::string times_text(const Answer& answer) {
+  const Waits& waits = answer.waits;
+  std::string out = duration_text(waits.total) + " in all: reading " + duration_text(waits.read) +
+                    ", starting " + duration_text(waits.start);
+  out += ", A to B " + duration_text(answer.a_to_b.times.wall_ms);
+  if (answer.b_to_a) out += ", B to A " + duration_text(answer.b_to_a->times.wall_ms);
   return out;
 }
 
 // Writes the JSON's own digits, outward.
-std::string every_digit(const PageText& page) {
-  const CertifiedInterval whole = interval_of(page.answer);
+std::string every_digit(const Answer& answer) {
+  const CertifiedInterval whole = interval_of(answer);
   const std::string lower = decimal(whole.lower, kJsonDigits, Rounding::kDown);
-  if (!is_upper_sought(page.answer, whole.lower, whole.upper)) return "at least " + lower;
+  if (!is_upper_sought(answer, whole.lower, whole.upper)) return "at least " + lower;
   return "[" + lower + ", " + decimal(whole.upper, kJsonDigits, Rounding::kUp) + "]";
 }
 
-std::string device_text(const Json& json) {
-  const Json& device = json["device"];
-  if (!device.is_object()) return "none was opened";
-  return text_or(device["name"], "not known") + " (" + text_or(device["type"], "other") +
-         "), Vulkan " + text_or(device["api_version"], "not known");
+std::string device_text(const DeviceDescription& device) {
+  if (device.name.empty()) return "none was opened";
+  return in_utf8(device.name) + " (" + text_or(device.type, "other") + "), Vulkan " +
+         text_or(device.api_version, "not known");
 }
 
 /// The other files that were read of an input, each with its hash.
-std::string files_beneath_text(const Json& input) {
+std::string files_beneath_text(const Input& input) {
   std::string text;
-  if (!input["files"].is_array()) return text;
-  for (const Json& file : input["files"])
-    text += (text.empty() ? "" : ", ") + text_or(file["path"], "no name") + " " +
-            text_or(file["sha256"], "not known");
+  if (input.sha256.empty()) return text;
+  for (const FileHash& file : input.files)
+    text += (text.empty() ? "" : ", ") + text_or(file.path, "no name") + " " +
+            text_or(file.sha256, "not known");
   return text;
 }
 
 // The unit of a file: its own, or the one that the answer is in.
-std::string unit_of_input(const PageText& page, const Json& input) {
-  const std::string own = text_or(input["unit"], "");
-  return own.empty() ? unit_text(page.answer) : own + ", by the file";
+std::string unit_of_input(const Answer& answer, const Input& input) {
+  const std::string& own = input.place.unit;
+  return own.empty() ? unit_text(answer) : own + ", by the file";
 }
 
-Json input_rows(const PageText& page) {
+Json input_rows(const Answer& answer) {
   Json rows = Json::array();
-  add_row(
-      page, rows, "file", [](const Json& input) { return text_or(input["path"], "no file"); },
+  add_input_row(
+      answer, rows, "file", [](const Input& input) { return text_or(input.path, "no file"); },
       true);
-  add_row(
-      page, rows, "SHA-256",
-      [](const Json& input) { return text_or(input["sha256"], "not known"); }, true);
-  add_row(page, rows, "other files read", files_beneath_text, true);
+  add_input_row(
+      answer, rows, "SHA-256",
+      [](const Input& input) { return text_or(input.sha256, "not known"); }, true);
+  add_input_row(answer, rows, "other files read", files_beneath_text, true);
   for (const bool are_points : {false, true}) {
-    add_row(page, rows, are_points ? "points" : "faces", [&](const Json& input) {
-      return input.value("points", false) == are_points ? count_text(input["faces"]) : "";
+    add_input_row(answer, rows, are_points ? "points" : "faces", [&](const Input& input) {
+      return input.are_points == are_points ? count_text(input, input.counts.faces) : "";
     });
   }
-  add_count(page, rows, "vertices", "vertices", true);
-  add_row(page, rows, "faces without area", [](const Json& input) {
-    const Json& number = input["degenerate"];
-    const bool has_some = !input.value("points", false) && number.is_number() && number != 0;
-    return has_some ? count_text(number) : std::string();
-  });
-  add_count(page, rows, "faces that are twice", "duplicate", false);
-  add_count(page, rows, "polygons split", "polygons", false);
-  add_count(page, rows, "unused vertices", "unreferenced", false);
-  add_row(page, rows, "unit", [&](const Json& input) { return unit_of_input(page, input); });
-  add_row(page, rows, "rounding in the file", [](const Json& input) {
-    const double delta = input["delta"].get<double>();
+  add_input_row(answer, rows, "vertices",
+                [](const Input& input) { return count_text(input, input.counts.vertices); });
+  add_if_any(answer, rows, "faces without area",
+             [](const Input& input) { return input.are_points ? 0 : input.counts.degenerate; });
+  add_if_any(answer, rows, "faces that are twice",
+             [](const Input& input) { return input.counts.duplicate; });
+  add_if_any(answer, rows, "polygons split",
+             [](const Input& input) { return input.counts.polygons; });
+  add_if_any(answer, rows, "unused vertices",
+             [](const Input& input) { return input.counts.unreferenced; });
+  add_input_row(answer, rows, "unit",
+                [&](const Input& input) { return unit_of_input(answer, input); });
+  add_input_row(answer, rows, "rounding in the file", [](const Input& input) {
+    const double delta = input.place.delta;
     return delta > 0 ? "up to " + decimal(delta, 3, Rounding::kUp) : std::string();
   });
   return rows;
 }
 
-Json run_rows(const PageText& page) {
-  const Json& json = page.json;
+Json run_rows(const Answer& answer) {
   Json rows = Json::array();
   const auto add = [&](const char* name, const std::string& text, bool is_code = false) {
     rows.push_back({{"name", name}, {"text", text}, {"is_code", is_code}});
   };
-  add("command", command_text(json), true);
-  add("largest deviation, all digits", every_digit(page), true);
-  add("program", "vkhausdorff " + json["version"].get<std::string>() + ", preset " +
-                     text_or(json["options"]["preset"], "default"));
-  add("device", device_text(json));
-  add("driver", text_or(json["driver"], "not known"));
-  add("measured", text_or(json["started"], "not known") + " on " +
-                      text_or(json["host"], "a machine without a name"));
-  add("time taken", times_text(page));
+  const Report& r = answer.a_to_b;
+  add("command", command_text(answer), true);
+  add("largest deviation, all digits", every_digit(answer), true);
+  add("program", "vkhausdorff " + answer.version + ", preset " + text_or(r.preset, "default"));
+  add("device", device_text(r.device));
+  add("driver", text_or(r.device.driver, "not known"));
+  add("measured", text_or(answer.started, "not known") + " on " +
+                      text_or(answer.host, "a machine without a name"));
+  add("time taken", times_text(answer));
   return rows;
 }
 
 // The note on one direction is a warning above.
-Json note_texts(const PageText& page) {
+Json note_texts(const Answer& answer) {
   Json texts = Json::array();
-  const auto add = [&](const std::string& of, const Json& note) {
-    if (note["code"] != code_name(NoteCode::kOneWay))
-      texts.push_back(of + note["text"].get<std::string>());
+  const auto add = [&](const char* of, const std::vector<Note>& notes) {
+    for (const Note& note : notes) {
+      if (note.code != NoteCode::kOneWay) texts.push_back(of + in_utf8(note.text));
+    }
   };
-  for (const Json& note : page.json["notes"]) add("", note);
-  for (const Json& input : page.json["inputs"]) {
-    for (const Json& note : input["notes"])
-      add(text_or(input["name"], "") == "a" ? "A: " : "B: ", note);
-  }
-  if (const auto& max = page.answer.max; max && (max->faces_a || max->faces_b))
+  add("", answer.notes);
+  add("A: ", answer.inputs[0].notes);
+  add("B: ", answer.inputs[1].notes);
+  if (const auto& max = answer.max; max && (max->faces_a || max->faces_b))
     texts.push_back(
         "Faces have limits of their own, and the verdict is by those. The tolerance that is "
         "dragged here is one for all of them.");
@@ -172,14 +167,14 @@ Json note_texts(const PageText& page) {
 
 }  // namespace
 
-Json record_view(const PageText& page) {
-  Json notes = note_texts(page);
-  return {{"inputs", input_rows(page)},
-          {"run", run_rows(page)},
+Json record_view(const Answer& answer) {
+  Json notes = note_texts(answer);
+  return {{"inputs", input_rows(answer)},
+          {"run", run_rows(answer)},
           {"has_notes", !notes.empty()},
           {"has_more_notes", notes.size() > 3},  // as many as style.css prints
           {"notes", std::move(notes)},
-          {"program", "vkhausdorff " + page.json["version"].get<std::string>()}};
+          {"program", "vkhausdorff " + answer.version}};
 }
 
 }  // namespace vkh

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "host/answer/json_text.h"
 #include "host/base/decimal.h"
 #include "host/show/camera.h"
 #include "host/show/page_words.h"
@@ -36,8 +37,8 @@ Json length_row(const Answer& answer, const std::string& name, const Enclosure& 
   row["estimate"] = "";
   if (length.estimate && is_range)
     row["estimate"] =
-        estimate_text(*length.estimate, length, answer.max ? answer.max->limit : Limit{}) +
-        (answer.unit.empty() ? "" : " " + answer.unit);
+        with_unit(estimate_text(*length.estimate, length, answer.max ? answer.max->limit : Limit{}),
+                  answer.unit);
   return row;
 }
 
@@ -205,35 +206,36 @@ bool has_used_effort(const Answer& answer, bool back) {
   return survey && survey->ended == SurveyEnd::kEffort;
 }
 
-}  // namespace
-
-std::string file_name_in(const PageText& page, bool is_b) {
-  const std::string path = page.json["inputs"][is_b ? 1 : 0]["path"];
-  return path.substr(path.find_last_of("/\\") + 1);
+// The name of a file without its folder.
+std::string file_name_in(const Input& input) {
+  return in_utf8(input.path.substr(input.path.find_last_of("/\\") + 1));
 }
 
-Json head_view(const PageText& page, const std::string& title) {
-  const Headline headline = headline_of(page.answer);
-  const std::string names = file_name_in(page, false) + " against " + file_name_in(page, true);
-  Json view = {{"window", headline.word + ": " + (title.empty() ? names : title)},
-               {"title", title.empty() ? names : title},
-               {"file_a", file_name_in(page, false)},
-               {"file_b", file_name_in(page, true)},
+}  // namespace
+
+Json head_view(const Answer& answer, const std::string& title) {
+  const Headline headline = headline_of(answer);
+  const std::string a = file_name_in(answer.inputs[0]), b = file_name_in(answer.inputs[1]);
+  const std::string heading = title.empty() ? a + " against " + b : title;
+  Json view = {{"window", headline.word + ": " + heading},
+               {"title", heading},
+               {"file_a", a},
+               {"file_b", b},
                {"word", headline.word},
                {"style", headline.style},
                {"sign", sign_of(headline.style)},
                {"sentence", headline.sentence},
-               {"facts", facts_of(page.answer)},
-               {"is_two_way", page.answer.b_to_a.has_value()}};
-  view["warnings"] = warnings_of(page.answer);
-  const bool is_placed = page.answer.placed.has_value();
+               {"facts", facts_of(answer)},
+               {"is_two_way", answer.b_to_a.has_value()}};
+  view["warnings"] = warnings_of(answer);
+  const bool is_placed = answer.placed.has_value();
   view["placement"] = is_placed ? "A was placed by the matrix or the unit that the record names; "
                                   "nothing was fitted."
                                 : "Nothing was fitted: A and B were measured as they lie.";
   return view;
 }
 
-Json side_view(const PageText& page, const SideText& side) {
+Json side_view(const Answer& answer, const SideText& side) {
   const bool back = side.drawn.back;
   Json view = {{"index", back ? 1 : 0},
                {"is_second", back},
@@ -241,12 +243,12 @@ Json side_view(const PageText& page, const SideText& side) {
                {"to", back ? "A" : "B"},
                {"places", Json::array()},
                {"has_no_places", side.places.empty()},
-               {"figures", figure_rows(page.answer, back, side.drawn.mesh.are_points)},
+               {"figures", figure_rows(answer, back, side.drawn.mesh.are_points)},
                {"legend", legend_view(side)},
-               {"is_finer_with_effort", has_used_effort(page.answer, back)}};
+               {"is_finer_with_effort", has_used_effort(answer, back)}};
   size_t number = 0;
   for (const MapPlace& place : side.places)
-    view["places"].push_back(place_view(page.answer, side.drawn, place, ++number));
+    view["places"].push_back(place_view(answer, side.drawn, place, ++number));
   return view;
 }
 

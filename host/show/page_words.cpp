@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "host/answer/end_words.h"
 #include "host/answer/pair_notes.h"
 #include "host/base/decimal.h"
 
@@ -45,11 +46,6 @@ std::string common_text(const Enclosure& length) {
   return "";
 }
 
-std::string unit_after(const Answer& answer, std::string number) {
-  if (!answer.unit.empty()) number.append(" ").append(answer.unit);
-  return number;
-}
-
 // A decimal of a share in percent, rounded outward.
 std::string percent_text(double share, int decimals, Rounding rounding) {
   if (share <= 0) return "0";
@@ -89,7 +85,8 @@ std::string failed_sentence(const Answer& answer, bool back) {
   if (r.has_witness) text += " at " + point_text(r.witness_a.point, r.diagonal_a);
   const std::optional<FaceLimits>& faces = back ? answer.max->faces_b : answer.max->faces_a;
   if (!faces) return text + ". The limit is " + limit_text(answer) + ".";
-  return text + ". The limit there is " + unit_after(answer, nearest(faces->limit.within, 9)) + ".";
+  return text + ". The limit there is " + with_unit(nearest(faces->limit.within, 9), answer.unit) +
+         ".";
 }
 
 std::string share_sentence(const Answer& answer, bool back) {
@@ -104,14 +101,6 @@ std::string area_sentence(const Answer& answer, Verdict verdict) {
   const bool back = verdict_of(answer, false) != verdict;
   return share_sentence(answer, back) + (answer.b_to_a ? share_sentence(answer, !back) : "") +
          "Asked for: " + answer.max->area_requested + ".";
-}
-
-std::string typed_text(const Answer& answer, const Length& length) {
-  const std::string& text = length.requested;
-  const std::string digits = text.substr(0, text.find_first_not_of("0123456789.eE+-"));
-  if (length.of == Length::Of::kUnit) return digits + " " + length.unit;
-  if (length.of == Length::Of::kFiles) return unit_after(answer, digits);
-  return text.ends_with('%') ? digits + " % of A's diagonal" : digits + " of A's diagonal";
 }
 
 std::string sides_sentence(const Answer& answer, Verdict verdict) {
@@ -157,38 +146,9 @@ std::string distance_sentence(const Answer& answer) {
          length_text(answer, deviation) + ".";
 }
 
-// A survey whose effort is used did what was set: page_view.cpp says so beside the figures.
-const char* cut_short_by(SurveyEnd end) {
-  switch (end) {
-    case SurveyEnd::kTime:
-      return "the time that was set is over";
-    case SurveyEnd::kCancelled:
-      return "the measurement was stopped";
-    case SurveyEnd::kMemory:
-      return "there was no memory for more";
-    default:
-      return nullptr;
-  }
-}
-
-const char* ended_by(Status status) {
-  switch (status) {
-    case Status::kTime:
-      return "the time that was set is over";
-    case Status::kWaves:
-      return "the effort that was set is used up";
-    case Status::kMemory:
-      return "there was no memory for more";
-    case Status::kCancelled:
-      return "the measurement was stopped";
-    default:
-      return nullptr;
-  }
-}
-
 void add_search_end(const Answer& answer, const Report& r, bool back,
                     std::vector<std::string>& warnings) {
-  const char* reason = ended_by(r.status);
+  const char* reason = end_words(r.status).on_page;
   if (reason == nullptr) return;
   const bool is_decided = answer.max && verdict_of(answer) != Verdict::kUndecided;
   const std::string what = "the largest deviation of " + from_of(back) + " from " + other_of(back) +
@@ -199,7 +159,7 @@ void add_search_end(const Answer& answer, const Report& r, bool back,
 // One sentence for both directions where both ended for one reason.
 void add_survey_ends(const Answer& answer, std::vector<std::string>& warnings) {
   const auto reason_of = [](const std::optional<SurveyResult>& survey) {
-    return survey ? cut_short_by(survey->ended) : nullptr;
+    return survey ? end_words(survey->ended).on_page : nullptr;
   };
   const char* const a = reason_of(answer.survey_a);
   const char* const b = reason_of(answer.survey_b);
@@ -254,7 +214,7 @@ std::string estimate_text(double length, const Enclosure& ends, const Limit& lim
 
 std::string length_text(const Answer& answer, const Enclosure& length) {
   const std::string text = figure_text(length, answer.max ? answer.max->limit : Limit{});
-  return text == "not known" ? text : unit_after(answer, text);
+  return text == "not known" ? text : with_unit(text, answer.unit);
 }
 
 std::string share_text(const Enclosure& share, double asked) {
@@ -276,9 +236,9 @@ std::string point_text(const glm::dvec3& point, double size) {
 
 std::string limit_text(const Answer& answer) {
   const Asked& max = *answer.max;
-  if (!max.sides) return typed_text(answer, max.length);
-  return typed_text(answer, max.sides->over) + " outward and " +
-         typed_text(answer, max.sides->under) + " inward";
+  if (!max.sides) return typed_in_words(max.length, answer.unit);
+  return typed_in_words(max.sides->over, answer.unit) + " outward and " +
+         typed_in_words(max.sides->under, answer.unit) + " inward";
 }
 
 bool is_limit(const Answer& answer, double distance) {
@@ -289,7 +249,7 @@ std::string band_text(const Answer& answer, double distance) {
   constexpr size_t kMostLetters = 12;  // more are of a share of a diagonal
   if (is_limit(answer, distance) && !answer.max->sides) return limit_text(answer);
   const std::string text = shortest_decimal(distance);
-  return unit_after(answer, text.size() <= kMostLetters ? text : nearest(distance, 6));
+  return with_unit(text.size() <= kMostLetters ? text : nearest(distance, 6), answer.unit);
 }
 
 Headline headline_of(const Answer& answer) {

@@ -1,8 +1,8 @@
 #include "host/show/report_csv.h"
 
-#include <cmath>
-#include <initializer_list>
+#include <vector>
 
+#include "host/answer/csv.h"
 #include "host/answer/figures.h"
 #include "host/base/decimal.h"
 #include "host/show/map_places.h"
@@ -11,17 +11,7 @@
 namespace vkh {
 namespace {
 
-constexpr const char* kLine = "\r\n";
-
-std::string row_text(std::initializer_list<std::string> cells) {
-  std::string text;
-  for (const std::string& cell : cells) text += (text.empty() ? "" : ",") + cell;
-  return text + kLine;
-}
-
-std::string csv_end(double value, Rounding rounding) {
-  return std::isfinite(value) ? decimal(value, kJsonDigits, rounding) : "";
-}
+std::string row_text(const std::vector<std::string>& cells) { return csv_line(cells, "\r\n"); }
 
 std::string figure_row(const Answer& answer, const AnswerFigure& figure) {
   const bool is_band = figure.kind == FigureKind::kBand;
@@ -29,7 +19,7 @@ std::string figure_row(const Answer& answer, const AnswerFigure& figure) {
   return row_text({figure.of_b ? "B" : "A",
                    is_band ? "within " + band_text(answer, figure.at) : figure.name,
                    e.estimate ? decimal_between(*e.estimate, e.lower, e.upper) : "",
-                   csv_end(e.lower, Rounding::kDown), csv_end(e.upper, Rounding::kUp),
+                   csv_bound(e.lower, Rounding::kDown), csv_bound(e.upper, Rounding::kUp),
                    figure.power == 0 ? "1" : answer.unit});
 }
 
@@ -52,12 +42,13 @@ std::string points_csv(const Measured& measured) {
     size_t number = 0;
     for (const MapPlace& place : worst_places(drawn_of(side, answer))) {
       const char* sign = place.side == SurfaceSide::kUnder && place.distance > 0 ? "-" : "";
-      out += row_text(
-          {side.back ? "B" : "A", std::to_string(++number), shortest_decimal(place.point.x),
-           shortest_decimal(place.point.y), shortest_decimal(place.point.z),
-           sign + decimal_between(place.distance, place.known.lower, place.known.upper),
-           csv_end(place.known.lower, Rounding::kDown), csv_end(place.known.upper, Rounding::kUp),
-           std::to_string(side.mesh.file_faces.of(place.face)), answer.unit});
+      out += row_text({side.back ? "B" : "A", std::to_string(++number),
+                       shortest_decimal(place.point.x), shortest_decimal(place.point.y),
+                       shortest_decimal(place.point.z),
+                       sign + decimal_between(place.distance, place.known.lower, place.known.upper),
+                       csv_bound(place.known.lower, Rounding::kDown),
+                       csv_bound(place.known.upper, Rounding::kUp),
+                       std::to_string(side.mesh.file_faces.of(place.face)), answer.unit});
     }
   }
   return out;

@@ -15,23 +15,24 @@ void take_witness(const Report& from, Report& to) {
   to.has_witness = from.has_witness;
 }
 
-void add_stages(const std::vector<StageStats>& stages, std::vector<StageStats>& all) {
-  for (const StageStats& stage : stages) {
-    const auto same = std::find_if(
-        all.begin(), all.end(), [&](const StageStats& known) { return known.name == stage.name; });
-    if (same == all.end()) {
-      all.push_back(stage);
-    } else {
-      same->gpu_ms += stage.gpu_ms;
-      same->times += stage.times;
-    }
+/// Adds each to the one of its name, or behind all.
+template <class Named, class Add>
+void add_by_name(const std::vector<Named>& more, std::vector<Named>& all, const Add& add) {
+  for (const Named& one : more) {
+    const auto same =
+        std::find_if(all.begin(), all.end(), [&](const Named& x) { return x.name == one.name; });
+    if (same == all.end())
+      all.push_back(one);
+    else
+      add(one, *same);
   }
 }
 
-// Every run has the same bounds in the same order.
-void add_culled(const std::vector<CullCount>& culled, std::vector<CullCount>& all) {
-  for (size_t i = 0; i < std::min(culled.size(), all.size()); ++i)
-    all[i].candidates += culled[i].candidates;
+void add_stages(const std::vector<StageStats>& stages, std::vector<StageStats>& all) {
+  add_by_name(stages, all, [](const StageStats& one, StageStats& sum) {
+    sum.gpu_ms += one.gpu_ms;
+    sum.times += one.times;
+  });
 }
 
 void add_coverage(const std::optional<CoverageCheck>& part, std::optional<CoverageCheck>& all) {
@@ -69,6 +70,11 @@ void add(const Report& part, Report& all) {
 }
 
 }  // namespace
+
+void add_culled(const std::vector<CullCount>& culled, std::vector<CullCount>& all) {
+  add_by_name(culled, all,
+              [](const CullCount& one, CullCount& sum) { sum.candidates += one.candidates; });
+}
 
 Report joined_report(std::span<const Report> parts) {
   Report all = parts[0];

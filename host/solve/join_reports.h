@@ -17,6 +17,9 @@ Report joined_report(std::span<const Report> parts);
 /// that ended an open one, a caller's wish before a budget; kPruned by whole.known_lower alone.
 Status joined_status(const Report& whole, std::span<const Report> parts);
 
+/// Adds what bounds closed, by their names: another device may have other bounds.
+void add_culled(const std::vector<CullCount>& culled, std::vector<CullCount>& all);
+
 /// Joins two runs of the same part: both intervals are true.
 Report narrowed(const Report& first, Report second);
 

@@ -7,6 +7,7 @@ usage: types_test.py; vkhausdorff is imported from PYTHONPATH. Exit code 1: they
 import ast
 import importlib.util
 import inspect
+import json
 import pathlib
 import re
 import subprocess
@@ -180,7 +181,7 @@ class Types(unittest.TestCase):
         core = {name for name in dir(sys.modules["vkhausdorff._core"]) if not name.startswith("_")}
         said = {name for name in stub_of(STUB.body) if not name.startswith("_")}
         self.assertEqual(said, public)
-        in_python = {"Alignment", "Closest", "Field", "Interval", "Metrics", "SidedPoint", "Signed", "SignedField", "Simplified", "Survey", "Witness", "assert_within", "distances", "metrics"}
+        in_python = {"Alignment", "Closest", "Field", "Interval", "Metrics", "Result", "SidedPoint", "Signed", "SignedField", "Simplified", "Survey", "Witness", "assert_within", "distances", "metrics"}
         self.assertEqual(core | in_python, public, "the package does not pass on what the module has")
         self.assertEqual(set(vkh.__all__), public | {"__version__"})
 
@@ -232,12 +233,23 @@ class Types(unittest.TestCase):
             with self.subTest(key):
                 if said.endswith((" | None", " | Any")):
                     self.assertIsNone(getattr(bare, key))
-                if said.startswith("_"):
-                    name, _, none = said.partition(" | ")
-                    literal = next(n for n in STUB.body if isinstance(n, ast.Assign) and n.targets[0].id == name)
-                    self.assertIn(value, ast.literal_eval(literal.value.slice) + ((None,) if none else ()))
+                if said.startswith("Literal["):
+                    self.assertIn(value, [one.value for one in ast.walk(member.returns) if isinstance(one, ast.Constant)])
                 else:
                     self.assertIs(type(value), eval(re.split(r"\[| \| ", said)[0], dict(vars(vkh))))
+
+    def test_words_are_those_of_the_schema(self):
+        """A test of the schema compares them with what the program writes."""
+        schema = json.loads((ROOT / "docs" / "schema" / "answer.schema.json").read_text())["$defs"]
+        known = {("Result", "status"): schema["status"], ("Result", "verdict"): schema["common"]["properties"]["verdict"],
+                 ("Survey", "ended"): schema["survey_work"]["properties"]["ended"], ("Signed", "inside"): schema["signed_figures"]["properties"]["inside"],
+                 ("Signed", "inside_out"): {"enum": ["none", *schema["signed_figures"]["properties"]["inside_out"]["enum"]]}}
+        for (name, member), said in known.items():
+            body = stub_of(STUB.body)[name].body
+            (kind,) = [node.returns if isinstance(node, ast.FunctionDef) else node.annotation for node in body
+                       if getattr(node, "name", None) == member or ast.unparse(getattr(node, "target", ast.Constant(0))) == member]
+            words = {one.value for one in ast.walk(kind) if isinstance(one, ast.Constant) and one.value is not None}
+            self.assertEqual(words, set(said["enum"]), (name, member))
 
     def test_it_is_marked_as_typed(self):
         self.assertTrue((PACKAGE / "py.typed").exists())

@@ -199,6 +199,17 @@ class Values(unittest.TestCase):
             with self.assertRaises(ValueError):
                 vkh.Result.__new__(vkh.Result).__setstate__(wrong)
 
+    def test_pickles_of_older_versions(self):
+        """What a Result has pickled since 0.3.0: its parts in this order."""
+        places = (3, (0.5, 0.5, 0.0), (1.0, 2.0, 3.0)), (4, (1.0, 0.0, 0.0), (1.0, 2.0, 2.5))
+        old = vkh.Result.__new__(vkh.Result)
+        old.__setstate__((0.25, 0.5, "time", "undecided", *places, None, None, {"gap": 0.1, "direction": "b_to_a"}, 7, "one", None, []))
+        self.assertEqual((old.lower, old.upper, old.status, old.verdict, old.gap), (0.25, 0.5, "time", "undecided", 0.1))
+        self.assertEqual((old.face_a, old.witness_a, old.face_b, old.witness_b), (3, places[0][2], 4, places[1][2]))
+        self.assertEqual(old.witness, ("b", *places[1], 3, places[0][2]))
+        self.assertEqual((old.index, old.id, old.error, old.survey, old.figures), (7, "one", None, None, None))
+        self.assertEqual(old.__reduce_ex__(2)[2], old.__getstate__())
+
     def test_fields_are_read_only(self):
         field = vkh.distance(*WEDGE, *FLOOR, field=True).field
         for one in (field, pickle.loads(pickle.dumps(field)), copy.deepcopy(field)):

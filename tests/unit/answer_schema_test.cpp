@@ -22,6 +22,8 @@ class PathVisitor {
     add("schema");
   }
   const Paths& paths() const { return paths_; }
+  /// The words that a named member may be: "directions/status=closed".
+  const Paths& words() const { return words_; }
 
   bool is_full() const { return detail_ == Detail::kFull; }
   void in_unit(const std::string&) {}
@@ -39,8 +41,15 @@ class PathVisitor {
   void count_if_any(const char* key, auto&) { add(key); }
   void truth(const char* key, auto&) { add(key); }
   void mark(const char* key, auto&) { add(key); }
-  void named(const char* key, auto&, const auto&) { add(key); }
-  void named_unless(auto, const char* key, auto&, const auto&) { add(key); }
+  template <class Enum>
+  void named(const char* key, auto&, const Words<Enum>& words) {
+    add(key);
+    for (int i = static_cast<int>(words.first); i <= static_cast<int>(words.last); ++i)
+      words_.insert(at_ + key + "=" + words.word(static_cast<Enum>(i)));
+  }
+  void named_unless(auto, const char* key, auto& value, const auto& words) {
+    named(key, value, words);
+  }
   void exit_code(const char* key, auto&) { add(key); }
   void note_code(const char* key, auto&) { add(key); }
   void length(const char* key, auto&) { add(key); }
@@ -140,7 +149,7 @@ class PathVisitor {
   void add(const std::string& key) { paths_.insert(at_ + key); }
 
   Detail detail_;
-  Paths absent_, paths_;
+  Paths absent_, paths_, words_;
   std::string at_;
 };
 
@@ -158,11 +167,17 @@ class SchemaPaths {
     add(own_, own_["$defs"][definition], "");
   }
   const Paths& paths() const { return paths_; }
+  /// The texts that its members may be: "directions/status=closed".
+  const Paths& words() const { return words_; }
 
  private:
   void add(const Json& document, const Json& schema, const std::string& at) {
-    if (schema.contains("$ref")) return follow(document, schema["$ref"], at);
-    for (const char* either : {"oneOf", "anyOf"}) {
+    if (schema.contains("$ref")) follow(document, schema["$ref"], at);
+    for (const Json& word : schema.value("enum", Json::array())) {
+      if (word.is_string())
+        words_.insert(at.substr(0, at.size() - 1) + "=" + word.get<std::string>());
+    }
+    for (const char* either : {"oneOf", "anyOf", "allOf"}) {
       for (const Json& one : schema.value(either, Json::array())) add(document, one, at);
     }
     if (schema.contains("items")) add(document, schema["items"], at);
@@ -180,7 +195,7 @@ class SchemaPaths {
   }
 
   Json answer_, own_;
-  Paths paths_;
+  Paths paths_, words_;
 };
 
 Paths without(const Paths& all, const Paths& beginnings) {
@@ -207,11 +222,25 @@ void check_same(const Paths& members, const Paths& schema) {
   CHECK(only_in_first(schema, members) == "");
 }
 
+/// Those of `words` whose members are in `named`, too.
+Paths of_members(const Paths& words, const Paths& named) {
+  const auto member = [](const std::string& word) { return word.substr(0, word.find('=')); };
+  Paths members, found;
+  for (const std::string& word : named) members.insert(member(word));
+  for (const std::string& word : words) {
+    if (members.contains(member(word))) found.insert(word);
+  }
+  return found;
+}
+
 TEST_CASE("the members of an answer are those of its schema") {
   PathVisitor visitor(Detail::kFull, {});
   Answer answer;
   visit(visitor, answer);
-  check_same(visitor.paths(), SchemaPaths("answer", "answer").paths());
+  const SchemaPaths schema("answer", "answer");
+  check_same(visitor.paths(), schema.paths());
+  CHECK(only_in_first(visitor.words(), schema.words()) == "");
+  CHECK(only_in_first(of_members(schema.words(), visitor.words()), visitor.words()) == "");
 }
 
 TEST_CASE("the members of a result line are those of its schema") {

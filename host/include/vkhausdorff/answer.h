@@ -203,11 +203,22 @@ std::vector<TableRow> metrics_rows(const Answer& answer);
 
 // junit_github.cpp defines these: the formats that build servers read.
 
-/// The outcome of one JUnit test case; `element` empty: it passed.
+/// The outcomes of a pair, the worst first.
+enum class Outcome {
+  kBeyond,    ///< beyond its limit
+  kNoAnswer,  ///< a failure
+  kOpen,      ///< undecided, or not closed
+  kClosed,    ///< an interval, since there was no limit
+  kWithin,    ///< within its limit
+};
+/// By the exit code; rank.cpp defines it.
+Outcome outcome_of(const Answer& answer);
+
+/// One JUnit test case.
 struct JunitCase {
   std::string command, name, words;
+  Outcome outcome = Outcome::kWithin;
   double seconds = 0;
-  std::string element = {}, type = {};
   std::vector<std::string> notes = {};  ///< see server_notes
 };
 /// A test suite in JUnit's XML, as build servers read it. `started` empty: without it and the host.
@@ -222,13 +233,15 @@ std::string pair_name(const std::string& a, const std::string& b, bool both,
 
 /// A remark that GitHub shows beside a file.
 struct GithubAnnotation {
-  std::string level;  ///< "error", "warning" or "notice"
-  std::string file;   ///< empty: none
+  Outcome outcome;   ///< an error, a warning or a notice
+  std::string file;  ///< empty: none
   std::string title, words;
   std::vector<std::string> notes = {};  ///< see server_notes
 };
 /// A line that GitHub's runner turns into an annotation.
 std::string github_line(const GithubAnnotation& annotation);
+/// The mark of an outcome in Markdown: ":x:".
+const char* github_mark(Outcome outcome);
 /// The text between backticks, for a cell of a table in Markdown.
 std::string github_code(const std::string& text);
 

@@ -29,6 +29,10 @@ double typed_length(const Limit& limit);
 /// Writes the limit for people: as it was typed if that has at most twelve digits; otherwise, for
 /// example for a share of a diagonal, "about" and four digits.
 std::string length_in_words(const Limit& limit);
+/// The length as it was typed, for people: "0.1 mm", "0.1 % of A's diagonal".
+std::string typed_in_words(const Length& length, const std::string& file_unit);
+/// "0.1 mm": a number with its unit, where there is one.
+std::string with_unit(std::string number, const std::string& unit);
 
 /// Whether a number alone is a fraction of diag(A), or that only up to a thousandth, since 0.01 may
 /// be meant as a length, or refused.

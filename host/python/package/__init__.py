@@ -3,10 +3,10 @@
 from vkhausdorff import _core, _keywords
 from vkhausdorff._align import Alignment
 from vkhausdorff._closest import Closest
-from vkhausdorff._core import Device, DeviceError, Mesh, Result, Solver, __version__, align, closest, devices, distance, read, simplify, simplify_levels
+from vkhausdorff._core import Device, DeviceError, Mesh, Solver, __version__, align, closest, devices, distance, read, simplify, simplify_levels
 from vkhausdorff._many import distances
 from vkhausdorff._metrics import Metrics, metrics
-from vkhausdorff._result import Witness
+from vkhausdorff._result import Result, Witness
 from vkhausdorff._simplify import Simplified
 from vkhausdorff._survey import Field, Interval, SidedPoint, Signed, SignedField, Survey
 

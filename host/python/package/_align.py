@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from vkhausdorff._survey import Record
+from vkhausdorff._survey import Record, set_arrays
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -29,10 +29,8 @@ class Alignment(Record):
 
     def __init__(self, matrix: npt.ArrayLike, rms: float, share: float, samples: int, poor: bool, rival: float | None,
                  mirrored: float | None = None) -> None:
-        own = np.array(matrix, dtype=np.float64)
-        own.setflags(write=False)
-        for name, value in (("matrix", own), ("rms", rms), ("share", share), ("samples", samples), ("poor", poor),
-                            ("rival", rival), ("mirrored", mirrored)):
+        set_arrays(self, matrix=(matrix, np.float64))
+        for name, value in (("rms", rms), ("share", share), ("samples", samples), ("poor", poor), ("rival", rival), ("mirrored", mirrored)):
             object.__setattr__(self, name, value)
 
     def __reduce__(self):  # an unpickled array could be written to

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from vkhausdorff._survey import Record
+from vkhausdorff._survey import Record, set_arrays
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -25,12 +25,7 @@ class Closest(Record):
     faces: npt.NDArray[np.uint32]
 
     def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike, points: npt.ArrayLike, faces: npt.ArrayLike) -> None:
-        of_kind = (("lower", lower, np.float64), ("upper", upper, np.float64), ("points", points, np.float64),
-                   ("faces", faces, np.uint32))
-        for name, values, kind in of_kind:
-            own = np.array(values, dtype=kind)
-            own.setflags(write=False)
-            object.__setattr__(self, name, own)
+        set_arrays(self, lower=(lower, np.float64), upper=(upper, np.float64), points=(points, np.float64), faces=(faces, np.uint32))
 
     def __reduce__(self):  # unpickled arrays could be written to
         return Closest, (self.lower, self.upper, self.points, self.faces)

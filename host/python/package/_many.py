@@ -1,6 +1,6 @@
 """distances(): pairs in, results out, as they end. The threads and devices are those of vkhausdorff._core."""
 
-from vkhausdorff import _core
+from vkhausdorff import _core, _result
 from vkhausdorff._keywords import takes_keywords_of
 
 
@@ -92,7 +92,7 @@ def _put(stream, index, item, split):
         id, a, b = split(item)
         stream.put(index, id, a, b)
     except Exception as error:
-        return _core._failed(index, id, error.with_traceback(None))
+        return _result.made(index=index, id=id, error=error.with_traceback(None))
     return None
 
 

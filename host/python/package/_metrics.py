@@ -5,8 +5,8 @@ from math import inf, nan
 from typing import Any
 
 from vkhausdorff import _core, _masks
-from vkhausdorff._core import Result
 from vkhausdorff._keywords import takes_keywords_of
+from vkhausdorff._result import Result
 from vkhausdorff._survey import Interval, html_table, interval, plain_figures
 
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from vkhausdorff._survey import Interval, Record
+from vkhausdorff._survey import Interval, Record, set_arrays
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
@@ -30,10 +30,7 @@ class Simplified(Record):
 
     def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike, interval: tuple[float, float], a_to_b: tuple[float, float],
                  b_to_a: tuple[float, float] | None, complete: bool, tried: int) -> None:
-        for name, values, kind in (("vertices", vertices, np.float64), ("faces", faces, np.uint32)):
-            own = np.array(values, dtype=kind)
-            own.setflags(write=False)
-            object.__setattr__(self, name, own)
+        set_arrays(self, vertices=(vertices, np.float64), faces=(faces, np.uint32))
         for name, ends in (("interval", interval), ("a_to_b", a_to_b), ("b_to_a", b_to_a)):
             object.__setattr__(self, name, None if ends is None else Interval(*ends))
         object.__setattr__(self, "complete", bool(complete))

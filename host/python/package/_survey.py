@@ -24,6 +24,14 @@ def plain_figures(figures):
     return {name: {"lower": e.lower, "upper": e.upper, "estimate": e.estimate, "jump": e.jump} for name, e in figures.items()}
 
 
+def set_arrays(record, **arrays):
+    """Sets members of a frozen dataclass, each given with its type, to arrays of its own that are read-only."""
+    for name, (values, kind) in arrays.items():
+        own = np.array(values, dtype=kind)
+        own.setflags(write=False)
+        object.__setattr__(record, name, own)
+
+
 class Record:
     """A dataclass of arrays and figures: it is equal to one with the same, and notebooks show _row() of it."""
 
@@ -81,10 +89,7 @@ class Field:
     _source = None  # of save(): (mesh, lower, upper, unit, name of the other mesh)
 
     def __init__(self, lower: npt.ArrayLike, upper: npt.ArrayLike, signed: "SignedField | None" = None) -> None:
-        for name, values in (("lower", lower), ("upper", upper)):
-            own = np.array(values, dtype=np.float64)
-            own.setflags(write=False)
-            object.__setattr__(self, name, own)
+        set_arrays(self, lower=(lower, np.float64), upper=(upper, np.float64))
         object.__setattr__(self, "signed", signed)
 
     def __reduce__(self):  # unpickled arrays could be written to
@@ -147,7 +152,17 @@ def _plain(value):
         return {name: _plain(one) for name, one in value.items()}
     if isinstance(value, SidedPoint):
         return _plain(value._asdict())
+    if isinstance(value, Signed):
+        return value.to_dict()
+    if isinstance(value, Field):
+        signed = {} if value.signed is None else {"signed": _plain(value.signed)}
+        return {"lower": value.lower.tolist(), "upper": value.upper.tolist(), **signed}
     return list(value) if isinstance(value, tuple) else value
+
+
+def _plain_rows(key, name, rows):
+    """Figures, each with what it is of, as plain values."""
+    return [{key: at, name: list(e), "estimate": e.estimate, "jump": e.jump} for at, e in rows]
 
 
 def _largest(values):
@@ -195,6 +210,10 @@ class Signed:
         plain = {one.name: _plain(getattr(self, one.name)) for one in fields(self) if one.name not in ("over_field", "under_field")}
         plain["percentiles"] = [{"share": share, "distance": distance} for share, distance in plain["percentiles"].items()]
         return plain
+
+
+# The members of a Survey that statistics bring.
+_STATISTICS = ("area", "points", "kept", "mean", "rms", "percentiles", "bands", "curve")
 
 
 @dataclass(frozen=True, repr=False)
@@ -264,25 +283,17 @@ class Survey:
 
     def to_dict(self) -> dict[str, Any]:
         """All of it as plain values, which json.dumps takes."""
-        plain = {"upper": self.upper, "met": self.met, "ended": self.ended, "field": None, "statistics": None,
-                 "stats": dict(self.stats), "figures": plain_figures(self.figures or {})}
-        if self.field is not None:
-            plain["field"] = {"lower": self.field.lower.tolist(), "upper": self.field.upper.tolist()}
-            if self.field.signed is not None:
-                signed = self.field.signed
-                plain["field"]["signed"] = {"lower": signed.lower.tolist(), "upper": signed.upper.tolist()}
-        if self.bands is not None:
-            plain["statistics"] = {
-                "area": self.area, "points": self.points, "kept": self.kept and list(self.kept), "mean": list(self.mean), "rms": list(self.rms),
-                "mean_estimate": self.mean.estimate, "rms_estimate": self.rms.estimate,
-                "bands": [{"distance": d, "share": list(share), "estimate": share.estimate, "jump": share.jump}
-                          for d, share in self.bands.items()],
-                "percentiles": [{"share": share, "distance": list(d), "estimate": d.estimate, "jump": d.jump}
-                                for share, d in self.percentiles.items()],
-                "curve": [{"distance": d, "share": list(share)} for d, share in self.curve]}
-        if self.signed is not None:
-            plain["signed"] = self.signed.to_dict()
+        plain = {one.name: _plain(getattr(self, one.name)) for one in fields(self) if one.name not in _STATISTICS}
+        plain["figures"] = plain_figures(self.figures or {})
+        plain["statistics"] = None if self.bands is None else self._plain_statistics()
         return plain
+
+    def _plain_statistics(self):
+        known = {name: getattr(self, name) for name in _STATISTICS}
+        estimates = {f"{name}_estimate": value.estimate for name, value in known.items() if isinstance(value, Interval)}
+        rows = {"percentiles": _plain_rows("share", "distance", self.percentiles.items()),
+                "bands": _plain_rows("distance", "share", self.bands.items()), "curve": _plain_rows("distance", "share", self.curve)}
+        return {**{name: _plain(value) for name, value in known.items()}, **estimates, **rows}
 
     def __repr__(self):
         words = [f"{self.field!r}"] if self.field is not None else []
@@ -335,12 +346,11 @@ def _signed_field(signed):
 def _statistics(found, bands):
     """What a Survey has of the members of statistics; bands: the distances as they were given."""
     if found is None:
-        return dict.fromkeys(("area", "mean", "rms", "percentiles", "bands", "curve"))
-    return {"area": found["area"], "mean": interval(found["mean"]), "rms": interval(found["rms"]),
-            "percentiles": {one["share"]: interval(one["distance"], one) for one in found["percentiles"]},
+        return dict.fromkeys(_STATISTICS)
+    plain = {name: interval(one) if isinstance(one, dict) else one for name, one in found.items() if name in _STATISTICS}
+    return {**plain, "percentiles": {one["share"]: interval(one["distance"], one) for one in found["percentiles"]},
             "bands": {given: interval(one["share"], one) for given, one in zip(bands, found["bands"])},
-            "curve": [(one["distance"], interval(one["share"], one)) for one in found["curve"]],
-            "points": found.get("points"), "kept": interval(found["kept"]) if "kept" in found else None}
+            "curve": [(one["distance"], interval(one["share"], one)) for one in found["curve"]]}
 
 
 def made(*, survey, figures, upper, bands, statistics=None, signed=None, field=None, over_field=None, under_field=None, source=None):
