@@ -205,12 +205,14 @@ void PythonStream::put(size_t index, const py::object& id, const py::object& a,
   const Question& question = pulled->asked.question;
   MeshGiven mesh_a = mesh_given("a", "A", a, question.points_a), mesh_b;
   if (!b.is_none()) mesh_b = mesh_given("b", "B", b, question.points_b);
-  Waiting& waiting = waiting_[index];
-  waiting.id = id;
-  std::optional<WithoutGil> outside;
-  if (!mesh_a.file.empty() || !mesh_b.file.empty()) outside.emplace();  // disks may be slow
-  waiting.bytes = mesh_a.bytes() + mesh_b.bytes();
-  bytes_ += waiting.bytes;
+  uint64_t bytes = 0;
+  {
+    std::optional<WithoutGil> outside;
+    if (!mesh_a.file.empty() || !mesh_b.file.empty()) outside.emplace();  // disks may be slow
+    bytes = mesh_a.bytes() + mesh_b.bytes();
+  }
+  waiting_[index] = {id, bytes};
+  bytes_ += bytes;
   pulled->stream.put(
       std::make_unique<GivenPair>(index, std::move(mesh_a), std::move(mesh_b), *pulled));
 }
@@ -237,10 +239,12 @@ py::object PythonStream::take(bool waits) {
     parts = parts_of(pair->question(), pair->answer(), pair->a(), pair->b());
   }
   const size_t index = dynamic_cast<const GivenPair&>(*found).index;
-  const auto waiting = waiting_.extract(index);
   parts["index"] = index;
-  parts["id"] = waiting.mapped().id;
-  bytes_ -= waiting.mapped().bytes;
+  const auto waiting = waiting_.extract(index);
+  if (waiting) {  // another thread may have closed the stream meanwhile
+    parts["id"] = waiting.mapped().id;
+    bytes_ -= waiting.mapped().bytes;
+  }
   return result_of(parts);
 }
 
