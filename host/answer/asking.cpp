@@ -4,13 +4,12 @@
 #include <vector>
 
 #include "host/answer/asking_state.h"
+#include "host/answer/stop.h"
 #include "host/base/begin_now.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// Meshes and solvers that the caller has.
 class GivenMeshes : public AskingSource {
@@ -42,11 +41,11 @@ class GivenMeshes : public AskingSource {
   const Clock::time_point start_ = Clock::now();
 };
 
-std::shared_ptr<AskingState> state_of(Question question, std::unique_ptr<GivenMeshes> source) {
+Question of_meshes(Question question) {
   if (question.metrics) question.symmetric = true;
   if (question.command.empty())
     question.command = question.metrics ? "metrics" : question.max ? "gate" : "distance";
-  return std::make_shared<AskingState>(std::move(question), std::move(source));
+  return question;
 }
 
 }  // namespace
@@ -54,9 +53,13 @@ std::shared_ptr<AskingState> state_of(Question question, std::unique_ptr<GivenMe
 Asking::Asking(Question question, std::shared_ptr<const ReadMesh> a,
                std::shared_ptr<const ReadMesh> b, std::span<Solver* const> solvers,
                std::stop_token stop)
-    : Asking(state_of(question, std::make_unique<GivenMeshes>(std::move(a), std::move(b), solvers,
-                                                              question.budget.time_limit_s,
-                                                              std::move(stop)))) {}
+    : Asking([&] {
+        const double time_limit_s = question.budget.time_limit_s;
+        return std::make_shared<AskingState>(
+            of_meshes(std::move(question)),
+            std::make_unique<GivenMeshes>(std::move(a), std::move(b), solvers, time_limit_s,
+                                          std::move(stop)));
+      }()) {}
 
 Asking::Asking(std::shared_ptr<AskingState> state) : state_(std::move(state)) {
   try {

@@ -3,14 +3,13 @@
 #include <system_error>
 #include <utility>
 
+#include "host/answer/stop.h"
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -136,7 +135,7 @@ void AskingStream::push(Running running) {
   }
   try {
     stream_->push(std::move(one));
-  } catch (const DeviceError&) {  // no device is left: finish() and check() say why
+  } catch (...) {  // no device is left: finish() and check() say why
     cancel();
   }
 }

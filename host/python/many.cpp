@@ -171,7 +171,7 @@ void Pulled::end() {
   stream.cancel();
   try {
     stream.finish();
-  } catch (const DeviceError&) {  // no caller asks for it any more
+  } catch (...) {  // no caller asks for it any more
   }
 }
 

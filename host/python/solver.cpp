@@ -158,7 +158,7 @@ class Listener {
 /// Writes the certificate's file, if there is a proof, and its size into the result. Warns if it
 /// proves less than the interval. Arrays are in no file, so that its hashes are those of their
 /// corners alone.
-void write_certificate(const Given& given, const AskedPair& pair, py::object certificate) {
+void write_certificate(const Given& given, const AskedPair& pair, const py::object& certificate) {
   if (certificate.is_none()) return;
   const Answer& answer = pair.answer();
   const std::string text = certificate_text(answer, {*pair.a(), *pair.b()});
