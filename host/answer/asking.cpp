@@ -27,13 +27,11 @@ class GivenMeshes : public AskingSource {
 
   void read(AskedPair& pair) override { pair.take(a_, shaped(b_)); }
   std::span<Solver* const> open(double& /*ms*/) override { return solvers_; }
-  void end(Answer& answer) override { answer.waits.total = 1000 * elapsed_s(); }
+  void end(Answer& answer) override { answer.waits.total = 1000 * seconds_since(start_); }
   bool is_called_off() const override { return stop_.stop_requested(); }
-  double left_s() const override { return time_limit_s_ - elapsed_s(); }
+  double left_s() const override { return time_limit_s_ - seconds_since(start_); }
 
  private:
-  double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
   const std::shared_ptr<const ReadMesh> a_, b_;
   const std::vector<Solver*> solvers_;
   const double time_limit_s_;

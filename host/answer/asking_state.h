@@ -2,21 +2,23 @@
 // known of its answer, at any time.
 #pragma once
 
-#include <atomic>
+#include <functional>
 #include <future>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
 
 #include "host/answer/asked_pair.h"
 #include "vkhausdorff/asking.h"
 
 namespace vkh {
 
-/// Where a question's meshes and devices come from, and who hears of it. read(), open() and end()
-/// are called in this order, on the thread that works; what they throw ends the question.
+/// Brings a question its meshes and devices, and hears of it. read(), open() and end() are called
+/// in this order, on the thread that works; what they throw ends the question.
 class AskingSource {
  public:
   virtual ~AskingSource() = default;

@@ -9,13 +9,6 @@
 #include "vkhausdorff/error.h"
 
 namespace vkh {
-namespace {
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-}  // namespace
 
 AskingStream::AskingStream(StreamOptions devices, uint64_t read_ahead, Deliver deliver)
     : budget_(read_ahead != 0 ? read_ahead : kReadAhead),
@@ -65,24 +58,22 @@ void AskingStream::work() {
   }
 }
 
-template <class Step>
-auto AskingStream::timed(const Step& step) {
+void AskingStream::timed(const std::function<void()>& step) {
   const auto start = Clock::now();
-  auto found = step();
+  step();
   const std::lock_guard lock(mutex_);
   read_s_ += seconds_since(start);
-  return found;
 }
 
 void AskingStream::bring(std::unique_ptr<StreamedPair> one, uint64_t ticket) {
   std::optional<uint64_t> bytes;
   bool has_room = false;
   try {
-    bytes = timed([&] { return one->look(); });
+    timed([&] { bytes = one->look(); });
     if (!budget_.take(ticket, bytes.value_or(0))) return;
     has_room = true;
     if (!bytes) return forget();
-    timed([&] { return one->read(), true; });
+    timed([&] { one->read(); });
   } catch (const Interrupted&) {
     return cancel();
   } catch (...) {
@@ -90,7 +81,8 @@ void AskingStream::bring(std::unique_ptr<StreamedPair> one, uint64_t ticket) {
   }
   if (!has_room && !budget_.take(ticket, 0)) return;
   Running running{std::move(one), bytes.value_or(0)};
-  running.it->error ? hand_out(std::move(running)) : push(std::move(running));
+  if (running.it->error) return hand_out(std::move(running));
+  push(std::move(running));
 }
 
 void AskingStream::forget() {

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -84,8 +86,7 @@ class AskingStream {
 
   void add_thread();
   void work();
-  template <class Step>
-  auto timed(const Step& step);
+  void timed(const std::function<void()>& step);
   void bring(std::unique_ptr<StreamedPair> one, uint64_t ticket);
   void forget();
   void push(Running running);

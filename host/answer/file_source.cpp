@@ -1,8 +1,8 @@
 #include "host/answer/file_source.h"
 
 #include <atomic>
-#include <chrono>
 #include <new>
+#include <optional>
 
 #include "host/answer/input_hashes.h"
 #include "host/answer/progress_line.h"
@@ -17,7 +17,7 @@
 namespace vkh {
 namespace {
 
-/// What the threads of a question share: they may outlive their source.
+/// The state that the threads of a question share: they may outlive their source.
 struct FileWork {
   const Question question;
   const Stop stop;
@@ -134,15 +134,19 @@ void take_files(const std::shared_ptr<FileWork>& at, AskedPair& asked) {
 
 class FileSource : public AskingSource {
  public:
-  explicit FileSource(const std::shared_ptr<FileWork>& at)
-      : at_(at), hashes_(at), opening_(begin_opening(at->question)) {}
+  explicit FileSource(std::shared_ptr<FileWork> at) : at_(std::move(at)) {}
 
+  // Begins with hashes and the device, too: not before, since a question may be refused.
   void read(AskedPair& pair) override {
+    hashes_.emplace(at_);
+    opening_ = begin_opening(at_->question);
     const auto start = Clock::now();
-    at_->question.file_a.empty() ? take_built_in(pair) : take_files(at_, pair);
-    const std::chrono::duration<double, std::milli> taken = Clock::now() - start;
-    pair.answer().waits.read = taken.count();
-    hashes_.begin_beneath();
+    if (at_->question.file_a.empty())
+      take_built_in(pair);
+    else
+      take_files(at_, pair);
+    pair.answer().waits.read = 1000 * seconds_since(start);
+    hashes_->begin_beneath();
   }
   std::span<Solver* const> open(double& ms) override {
     session_ = opening_.get();
@@ -151,7 +155,7 @@ class FileSource : public AskingSource {
     for (const Opened& one : session_.more) solvers_.push_back(one.solver.get());
     return solvers_;
   }
-  void end(Answer& answer) override { hashes_.fill(answer); }
+  void end(Answer& answer) override { hashes_->fill(answer); }
 
   bool is_called_off() const override { return is_interrupted(); }
   double left_s() const override { return at_->stop.left_s(); }
@@ -164,7 +168,7 @@ class FileSource : public AskingSource {
 
  private:
   const std::shared_ptr<FileWork> at_;
-  Hashes hashes_;
+  std::optional<Hashes> hashes_;
   std::future<Session> opening_;
   Session session_;
   std::vector<Solver*> solvers_;

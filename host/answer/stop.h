@@ -11,12 +11,16 @@ namespace vkh {
 
 using Clock = std::chrono::steady_clock;
 
+inline double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 class Stop {
  public:
   /// `start`: the process's; the time counts from it, reading and pipelines included.
   Stop(Clock::time_point start, double seconds) : start_(start), seconds_(seconds) {}
 
-  double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double elapsed_s() const { return seconds_since(start_); }
   double left_s() const { return seconds_ - elapsed_s(); }
   bool is_asked() const { return is_interrupted() || left_s() <= 0; }
   Status why() const { return is_interrupted() ? Status::kCancelled : Status::kTime; }

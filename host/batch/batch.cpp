@@ -15,10 +15,6 @@
 namespace vkh {
 namespace {
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// The error of a pair, with its files as its list names them.
 Failure failure_of(const std::exception_ptr& thrown, const Entry& entry) {
   const Error error = error_of(thrown);
@@ -149,7 +145,7 @@ class ResultLines {
   Totals totals_;
 };
 
-/// What all pairs of a batch share.
+/// The state that all pairs of a batch share.
 struct Running {
   explicit Running(const BatchJob& asked)
       : job(asked), lines(job), reader(job.asked, job.shared, [this] { return goes_on(); }) {}

@@ -168,8 +168,7 @@ void EntryReader::read(bool shares_b, AskedPair& pair) {
   const Question& question = pair.question();
   std::shared_ptr<ReadMesh> a = mesh_of(question.file_a, question.limits_of(false));
   pair.take(std::move(a), b_of(question, shares_b));
-  pair.answer().waits.read =
-      std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  pair.answer().waits.read = 1000 * seconds_since(start);
 }
 
 }  // namespace vkh

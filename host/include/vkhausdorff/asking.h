@@ -32,7 +32,7 @@ class Asking {
   /// not go together, whatever the meshes are.
   Asking(Question question, std::shared_ptr<const ReadMesh> a, std::shared_ptr<const ReadMesh> b,
          std::span<Solver* const> solvers, std::stop_token stop = {});
-  /// Begins with what a program has made of a question and files.
+  /// Begins with the state of host/answer/asking_state.h: the program asks about files so.
   explicit Asking(std::shared_ptr<AskingState> state);
   /// Cancels what is not done, and waits, unless leave() came.
   ~Asking();
