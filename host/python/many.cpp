@@ -46,16 +46,9 @@ bool is_given(const Arguments& given, const char* name) {
 struct AskedOfAll {
   Question question;   ///< its `limits` are for files
   ShapedMesh against;  ///< the B of all; null: each has its own
-  StreamOptions devices;
-  size_t ahead = 0;  ///< most pairs that are put and not taken
+  StreamOptions
+      devices;  ///< as many pairs wait as are put and not taken: no thread waits in push()
 };
-
-// The default for GPUs, which take most: 3 workers of 16 pairs, and as many that wait for them.
-size_t default_ahead(const StreamOptions& devices) {
-  const size_t lanes = devices.lanes != 0 ? devices.lanes : 3;
-  const size_t together = devices.together != 0 ? devices.together : 16;
-  return 2 * lanes * together * devices.devices.size();
-}
 
 AskedOfAll asked_from(const Arguments& given) {
   AskedOfAll asked;
@@ -65,9 +58,7 @@ AskedOfAll asked_from(const Arguments& given) {
   asked.devices.lanes = request.many.lanes;
   asked.devices.devices = given.devices(kSelectors);
   asked.devices.first = engine_of(asked.question);
-  asked.ahead = ahead_of(given);
-  if (asked.ahead == 0) asked.ahead = default_ahead(asked.devices);
-  asked.devices.waiting = asked.ahead;  // so that no thread ever waits for a device's queue
+  asked.devices.waiting = ahead_of(given);
   if (is_given(given, "against"))
     asked.against =
         kept(mesh_of("against", "B", given.at("against"), asked.question.limits_of(true)));
@@ -193,7 +184,7 @@ PythonStream::PythonStream(const py::args& positional, const py::kwargs& named) 
 
 bool PythonStream::has_room() const {
   const Call call;
-  return pulled_ != nullptr && waiting_.size() < pulled_->asked.ahead &&
+  return pulled_ != nullptr && waiting_.size() < pulled_->asked.devices.most_waiting() &&
          bytes_ <= AskingStream::kReadAhead;
 }
 

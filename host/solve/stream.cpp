@@ -66,11 +66,19 @@ constexpr int kMostReopened = 3;
 
 }  // namespace
 
+// Assumes GPUs, which take most: 3 workers of 16 pairs.
+size_t StreamOptions::most_waiting() const {
+  if (waiting != 0) return waiting;
+  const size_t workers = lanes != 0 ? lanes : 3;
+  const size_t pairs = together != 0 ? together : 16;
+  return 2 * workers * pairs * devices.size();
+}
+
 struct PairStream::Impl {
   Impl(StreamOptions given, std::function<void(StreamResult&&)> to)
       : options(std::move(given)),
         delivery(std::move(to)),
-        queue(options.waiting != 0 ? options.waiting : waiting_for(options)),
+        queue(options.most_waiting()),
         share{.options = options,
               .queue = queue,
               .deliver = [this](StreamResult&& result) { hand_out(std::move(result)); },
@@ -84,13 +92,6 @@ struct PairStream::Impl {
   ~Impl() {
     cancel();
     join();
-  }
-
-  // Assumes GPUs, which take most: 3 workers of 16 pairs.
-  static size_t waiting_for(const StreamOptions& options) {
-    const size_t lanes = options.lanes != 0 ? options.lanes : 3;
-    const size_t together = options.together != 0 ? options.together : 16;
-    return 2 * lanes * together * options.devices.size();
   }
 
   void hand_out(StreamResult&& result) {

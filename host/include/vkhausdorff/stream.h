@@ -53,6 +53,9 @@ struct StreamOptions {
   size_t lanes = 0;      ///< submissions side by side on a device; 0: what pays on it
   bool surveys = false;  ///< most pairs have a survey in `beside`, which is mostly the host's work
   size_t waiting = 0;    ///< most pairs that wait for a device; 0: twice what devices hold
+
+  /// Returns `waiting`, or its default.
+  size_t most_waiting() const;
 };
 
 /// The time that devices were busy, in seconds over all of them.
