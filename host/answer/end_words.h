@@ -1,5 +1,5 @@
-// What ended a search or a survey, in words: each end has a row, from which first lines, tables and
-// pages take what they say of it.
+// The ends of a search or a survey, in words: first lines, tables and pages take from an end's row
+// what they say of it.
 #pragma once
 
 #include "vkhausdorff/report.h"

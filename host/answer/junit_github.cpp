@@ -89,7 +89,7 @@ std::string github(const std::string& text, bool is_property) {
   return out;
 }
 
-/// What build servers show of an outcome.
+/// The words by which build servers show an outcome.
 struct Shown {
   const char *element, *type;  ///< of JUnit; empty: the case passed
   const char *level, *mark;    ///< of GitHub

@@ -1,4 +1,6 @@
 // An answer as Python gets it.
+#include "host/python/answer.h"
+
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -10,7 +12,6 @@
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
 #include "host/python/python_tree.h"
-#include "host/python/result.h"
 #include "host/solve/join_reports.h"
 
 namespace vkh::python {

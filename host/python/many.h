@@ -6,7 +6,7 @@
 #include <map>
 #include <memory>
 
-#include "host/python/result.h"
+#include "host/python/answer.h"
 
 namespace vkh::python {
 

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "host/python/answer.h"
 #include "host/python/mesh.h"
-#include "host/python/result.h"
 #include "host/python/session.h"
 
 namespace vkh::python {

@@ -222,7 +222,7 @@ void check_same(const Paths& members, const Paths& schema) {
   CHECK(only_in_first(schema, members) == "");
 }
 
-/// Those of `words` whose members are in `named`, too.
+/// Returns those of `words` whose members are in `named`, too.
 Paths of_members(const Paths& words, const Paths& named) {
   const auto member = [](const std::string& word) { return word.substr(0, word.find('=')); };
   Paths members, found;

@@ -201,8 +201,6 @@ std::vector<TableRow> survey_rows(const Answer& answer, const SurveyResult& surv
 std::string metrics_in_words(const Answer& answer);
 std::vector<TableRow> metrics_rows(const Answer& answer);
 
-// junit_github.cpp defines these: the formats that build servers read.
-
 /// The outcomes of a pair, the worst first.
 enum class Outcome {
   kBeyond,    ///< beyond its limit
@@ -211,8 +209,10 @@ enum class Outcome {
   kClosed,    ///< an interval, since there was no limit
   kWithin,    ///< within its limit
 };
-/// By the exit code; rank.cpp defines it.
+/// The outcome by the exit code: rank.cpp.
 Outcome outcome_of(const Answer& answer);
+
+// junit_github.cpp defines these: the formats that build servers read.
 
 /// One JUnit test case.
 struct JunitCase {

@@ -1,4 +1,4 @@
-// The result that Python gets: _result.py makes it of plain values.
+// An answer on its way to Python: its plain values, of which _result.py makes the result.
 #pragma once
 
 #include <pybind11/pybind11.h>
