@@ -36,7 +36,7 @@ function(vkh_test_program source out)
     if(source MATCHES "/verification/math/" AND NOT name STREQUAL "lib_regroup_test")  # which needs the self-test of the program
       target_link_libraries(${name} PRIVATE vkh_math_support vkh_math_rooms)
     elseif(source MATCHES "/files/")
-      target_link_libraries(${name} PRIVATE vkh_file_support vkh_file_rooms)
+      target_link_libraries(${name} PRIVATE vkh_file_support vkh_file_rooms vkh_test_flags)
     else()
       target_link_libraries(${name} PRIVATE vkh_test_support)
     endif()
