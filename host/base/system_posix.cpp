@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 
@@ -12,15 +13,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A signal handler can reach nothing but a global.
-volatile std::sig_atomic_t g_interrupted = 0;
+// A signal handler can reach nothing but a global, and other threads than the handler's read this
+// one.
+std::atomic<bool> g_interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 // `static`, since a function of C in a namespace without a name is visible to all of the program.
 extern "C" {
-static void on_interrupt(int signal) {
-  g_interrupted = 1;
-  std::signal(signal, SIG_DFL);
+static void on_interrupt(int) { g_interrupted = true; }
 }
+
+// The second signal does what it does by default: it ends the process.
+void note_signal(int signal) {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  action.sa_flags = SA_RESETHAND | SA_RESTART;
+  sigaction(signal, &action, nullptr);
 }
 
 }  // namespace
@@ -35,10 +43,10 @@ Console::~Console() = default;
 bool is_error_terminal() { return isatty(STDERR_FILENO) == 1; }
 
 void note_interrupts() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  note_signal(SIGINT);
+  note_signal(SIGTERM);
 }
-bool is_interrupted() { return g_interrupted != 0; }
+bool is_interrupted() { return g_interrupted; }
 
 fs::path user_cache_folder() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
