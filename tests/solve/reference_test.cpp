@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "tests/shapes/shapes.h"
-#include "tests/verification/oracle/cgal_oracle.h"
 #include "tests/verification/oracle/exact.h"
 #include "tests/verification/oracle/reference_solver.h"
 #include "vkhausdorff/mesh_io.h"
@@ -283,47 +282,6 @@ TEST_CASE("dense samples of A stay within the interval") {
     CHECK(largest <= got.upper + 1e-14);
     CHECK(got.lower <= largest + spacing);
   }
-}
-
-TEST_CASE("CGAL agrees") {
-  struct Pair {
-    Mesh a, b;
-  };
-  const Mesh ball = icosphere(1.0, 2);
-  const std::vector<Pair> pairs = {
-      {square_patch(6, 0.0), square_patch(4, 0.25)},
-      {v_lid(), v_sheet(1.5, 0.3)},
-      {v_sheet(1.5, 0.3), v_lid()},
-      {cube(1.0), rotated(cube(1.2), {1, 1, 0}, 0.5)},
-      {ball, uv_sphere(1.0, 9, 14)},
-      {ball, noisy(ball, 0.02, 3)},
-      {height_field(16, 1), height_field(16, 2)},
-      {height_field(16, 2), height_field(16, 1)},
-      {noisy(height_field(12, 2), 1e-3, 1), height_field(12, 1)},
-      {torus(1.0, 0.3, 24, 12), torus(1.0, 0.3, 12, 6)},
-      {torus(1.0, 0.3, 12, 6), torus(1.0, 0.3, 24, 12)},
-      {torus(1.0, 0.3, 16, 8), translated(torus(1.0, 0.3, 16, 8), {0.01, 0.02, 0.03})},
-      {soup(1, 20), soup(2, 30)},
-      {ball, translated(cube(0.6), {0.2, 0.1, 0.0})},
-  };
-  for (const Pair& pair : pairs) {
-    const double error = 1e-4 * diagonal(pair.a);
-    const auto cgal = cgal_hausdorff(pair.a, pair.b, error);
-    CAPTURE(pair.a.name);
-    CAPTURE(pair.b.name);
-    REQUIRE(cgal.has_value());
-    const Interval ours = reference_hausdorff(pair.a, pair.b, 1e-3 * error);
-    CAPTURE(ours.lower);
-    CAPTURE(ours.upper);
-    CAPTURE(cgal->lower);
-    CAPTURE(cgal->upper);
-    CHECK(ours.meets(*cgal));
-  }
-}
-
-TEST_CASE("CGAL declines what it cannot hold") {
-  CHECK_FALSE(cgal_hausdorff(degenerate_faces(1, 9), cube(1.0), 1e-3).has_value());
-  CHECK_FALSE(cgal_hausdorff(cube(1.0), degenerate_faces(1, 9), 1e-3).has_value());
 }
 
 namespace {

@@ -1,6 +1,6 @@
-// Whole runs on small, hard, random pairs against two independent oracles: the double-precision
-// reference solver and CGAL. All three enclose h(A, B), so any two intervals must meet.
-// VKH_ORACLE_SEEDS asks for more of them than the default.
+// Whole runs on small, hard, random pairs against the double-precision reference solver. Both
+// enclose h(A, B), so their intervals must meet (CGAL's: cgal_test.cpp). VKH_ORACLE_SEEDS asks for
+// more of them than the default.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,7 +10,6 @@
 
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
-#include "tests/verification/oracle/cgal_oracle.h"
 #include "tests/verification/oracle/reference_solver.h"
 
 namespace {
@@ -89,14 +88,6 @@ void check_pair(const Mesh& a, const Mesh& b, uint64_t seed) {
   check_against(oracle, a, b, cut);
 }
 
-void check_cgal(const Mesh& a, const Mesh& b) {
-  if (!is_due()) return;
-  const double size = diagonal(joined(a, b));
-  const std::optional<Interval> oracle = cgal_hausdorff(a, b, 1e-4 * size);
-  REQUIRE(oracle);
-  check_against(*oracle, a, b, {});
-}
-
 }  // namespace
 
 TEST_CASE("every kind against every kind") {
@@ -155,18 +146,4 @@ TEST_CASE("decimated twins and remeshed surfaces") {
   check_pair(torus(1.0, 0.3, 24, 12), torus(1.0, 0.3, 30, 10), 3);
   check_pair(rotated(torus(1.0, 0.3, 24, 12), {0, 0, 1}, 0.1), torus(1.0, 0.3, 24, 12), 4);
   check_pair(cube(0.5), icosphere(0.75, 2), 5);
-}
-
-TEST_CASE("CGAL agrees where it can hold the meshes") {
-  check_cgal(v_lid(), v_sheet());
-  check_cgal(cube(0.5), icosphere(0.75, 2));
-  check_cgal(icosphere(0.75, 2), cube(0.5));
-  check_cgal(height_field(16, 1), height_field(16, 4));
-  check_cgal(height_field(16, 4), height_field(16, 1));
-  check_cgal(torus(1.0, 0.3, 24, 12), noisy(torus(1.0, 0.3, 24, 12), 0.02, 1));
-  for (uint64_t seed = 0; seed < 2 * seed_count(); ++seed) {
-    CAPTURE(seed);
-    check_cgal(soup(seed, 20), soup(100 + seed, 20));
-    check_cgal(noisy(icosphere(1.0, 1), 0.1, seed), noisy(icosphere(1.0, 1), 0.1, seed + 50));
-  }
 }
