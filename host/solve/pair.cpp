@@ -106,25 +106,11 @@ namespace {
 
 constexpr double kCoarse = 1e-6;  // a fraction of A's diagonal: the precision of plain floats
 
-SolveOptions coarser(const Pair& pair) {
-  const double unit = pair.options.tolerance_is_absolute ? diagonal(pair.box_a) : 1;
-  SolveOptions coarse = pair.options;
-  coarse.tolerance = std::max(coarse.tolerance, kCoarse * unit);
-  coarse.engine.fine = coarse.engine.fine || pair.options.tolerance < kFineTolerance * unit;
-  return coarse;
-}
-
 // Returns whether a run ended within its own tolerance, of its lower bound or of one that was
 // known, and not within that of the report.
 bool is_too_coarse(const Report& r) {
   return (r.status == Status::kClosed && !is_within(r.lower, r.upper, r.tolerance)) ||
          (r.status == Status::kPruned && !is_within(r.known_lower, r.upper, r.tolerance));
-}
-
-// Returns whether a finer run may decide what this one has not.
-bool asks_for_more(const Report& r) {
-  return !is_decided(r.lower, r.upper, r.limit) &&
-         (r.status == Status::kClosed || r.status == Status::kPrecision);
 }
 
 }  // namespace
@@ -153,31 +139,22 @@ double tolerance_of(const Pair& pair) {
                              Diagonal(diagonal(pair.box_a), pair.a.delta).least());
 }
 
-std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const Solve& solve) {
-  std::vector<Pair> first = pairs;
-  for (Pair& pair : first) {
-    if (pair.options.limit.within > 0) pair.options = coarser(pair);
-  }
-  std::vector<Report> reports = solve(first);
-  std::vector<Pair> open;
-  std::vector<size_t> numbers;
-  for (size_t i = 0; i < pairs.size(); ++i) {
-    if (!(first[i].options.tolerance > pairs[i].options.tolerance)) continue;
-    Report& r = reports[i];
-    r.tolerance = tolerance_of(pairs[i]);
-    if (is_too_coarse(r))
-      r.status = is_decided(r.lower, r.upper, r.limit) ? Status::kLimit : Status::kPrecision;
-    if (!asks_for_more(r)) continue;
-    open.push_back(pairs[i]);
-    numbers.push_back(i);
-  }
-  if (open.empty()) return reports;
-  std::vector<Report> again = solve(open);
-  for (size_t i = 0; i < open.size(); ++i) {
-    narrow(again[i], reports[numbers[i]]);
-    reports[numbers[i]] = std::move(again[i]);
-  }
-  return reports;
+Pair coarser(const Pair& pair) {
+  Pair coarse = pair;
+  SolveOptions& options = coarse.options;
+  if (!(options.limit.within > 0)) return coarse;
+  const double unit = options.tolerance_is_absolute ? diagonal(pair.box_a) : 1;
+  options.tolerance = std::max(options.tolerance, kCoarse * unit);
+  options.engine.fine = options.engine.fine || pair.options.tolerance < kFineTolerance * unit;
+  return coarse;
+}
+
+bool asks_for_more(Report& r, const Pair& first, const Pair& pair) {
+  if (!(first.options.tolerance > pair.options.tolerance)) return false;
+  const bool is_known = is_decided(r.lower, r.upper, r.limit);
+  r.tolerance = tolerance_of(pair);
+  if (is_too_coarse(r)) r.status = is_known ? Status::kLimit : Status::kPrecision;
+  return !is_known && (r.status == Status::kClosed || r.status == Status::kPrecision);
 }
 
 }  // namespace vkh

@@ -1,9 +1,6 @@
 // A pair of meshes in its frame, and the question to the device about it.
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "host/solve/pair_buffers.h"
 #include "vkhausdorff/frame.h"
 #include "vkhausdorff/report.h"
@@ -12,6 +9,16 @@
 namespace vkh {
 
 struct RunHooks;
+
+/// A prepared B: its frame is its own, and it lies on the device.
+struct KeptMesh {
+  Mesh mesh;
+  Box box;
+  Frame frame;
+  double displacement = 0;
+  bool has_low = false;
+  ResidentMesh resident;
+};
 
 /// A run's meshes as they are stored in one frame, and what is asked about them. Proof that any
 /// frame will do: the device
@@ -46,11 +53,11 @@ double tolerance_of(const Pair& pair);
 /// of both, and all else stays.
 void narrow(Report& r, const Report& other);
 
-using Solve = std::function<std::vector<Report>(const std::vector<Pair>&)>;
-
-/// Calls `solve`, but asks about a limit in plain floats first if the tolerance is finer than these
-/// have, since they decide nearly every limit, and sooner; then asks again about the pairs that
-/// this left undecided.
-std::vector<Report> decide_limits(const std::vector<Pair>& pairs, const Solve& solve);
+/// The pair as it is asked first: if it has a limit and its tolerance is finer than plain floats
+/// have, it is asked in these, since they decide nearly every limit, and sooner.
+Pair coarser(const Pair& pair);
+/// Gives the report of `first`, a pair as it was asked first, the tolerance and the status that it
+/// has for `pair`; returns whether a finer run may decide what this one has not.
+bool asks_for_more(Report& r, const Pair& first, const Pair& pair);
 
 }  // namespace vkh

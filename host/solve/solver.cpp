@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
@@ -72,14 +73,7 @@ Solver::Solver(Device& device, const std::filesystem::path& cache_folder) {
 Solver::~Solver() = default;
 const Device& Solver::device() const { return impl_->device; }
 
-struct PreparedMesh::Impl {
-  Mesh mesh;
-  Box box;
-  Frame frame;
-  double displacement = 0;
-  bool has_low = false;
-  ResidentMesh resident;
-};
+struct PreparedMesh::Impl : KeptMesh {};
 
 PreparedMesh::PreparedMesh(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 PreparedMesh::PreparedMesh(PreparedMesh&&) noexcept = default;
@@ -260,11 +254,12 @@ void check_meshes(std::span<const PairView> pairs) {
   for (const Mesh* mesh : meshes) check_mesh(*mesh);
 }
 
-// A caller's mesh as it is stored, in a frame around both or in that of a prepared B.
+// A caller's pair as it is stored, in a frame around both or in that of a prepared B.
 struct Framed {
-  FramedPair pair;
+  FramedPair pair = {};
   double displacement_b = 0;
   bool has_low_b = false;
+  const KeptMesh* kept = nullptr;  // B's, if it is prepared and its frame serves A
 };
 
 Framed framed_alone(const PairView& m) {
@@ -274,52 +269,65 @@ Framed framed_alone(const PairView& m) {
   return f;
 }
 
+Framed framed_by(const KeptMesh& kept, const Mesh& a) {
+  Framed f{.displacement_b = kept.displacement, .has_low_b = kept.has_low, .kept = &kept};
+  f.pair.frame = kept.frame;
+  f.pair.a = store_in(kept.frame, a);
+  f.pair.box_a = bounding_box(a);
+  f.pair.box_b = kept.box;
+  return f;
+}
+
+Pair pair_of(const PairView& view, const Framed& f) {
+  return {.a = view.a,
+          .b = f.kept != nullptr ? f.kept->mesh : view.b,
+          .frame = f.pair.frame,
+          .stored_a = f.pair.a,
+          .stored_b = f.kept != nullptr ? nullptr : &f.pair.b,
+          .resident = f.kept != nullptr ? &f.kept->resident : nullptr,
+          .displacement = add_up(f.pair.a.displacement, f.displacement_b),
+          .has_low = f.pair.a.has_low || f.has_low_b,
+          .box_a = f.pair.box_a,
+          .joint = join(f.pair.box_a, f.pair.box_b)};
+}
+
 }  // namespace
 
-std::vector<Report> Solver::Impl::distances(std::span<const PairView> meshes,
+std::vector<Report> Solver::Impl::distances(std::span<const PairView> views,
                                             const std::vector<SolveOptions>& options,
                                             const RunHooks* hooks) {
   const auto start = Clock::now();
-  check_meshes(meshes);
-  std::vector<Framed> framed(meshes.size());
-  std::vector<const PreparedMesh::Impl*> kept(meshes.size());
+  check_meshes(views);
+  std::vector<Framed> framed(views.size());
   uint64_t bytes = 0;
-  for (const PairView& m : meshes) bytes += m.framed ? 0 : mesh_bytes(m.a) + mesh_bytes(m.b);
+  for (const PairView& m : views) bytes += m.framed ? 0 : mesh_bytes(m.a) + mesh_bytes(m.b);
   const auto frame = [&](size_t i) {
-    const PairView& m = meshes[i];
-    if (m.prepared == nullptr || !m.prepared->serves(m.a)) {
-      framed[i] = framed_alone(m);
-      return;
-    }
-    Framed& f = framed[i];
-    kept[i] = m.prepared->impl_.get();
-    f.pair.frame = kept[i]->frame;
-    f.pair.a = store_in(kept[i]->frame, m.a);
-    f.pair.box_a = bounding_box(m.a);
-    f.pair.box_b = kept[i]->box;
-    f.displacement_b = kept[i]->displacement;
-    f.has_low_b = kept[i]->has_low;
+    const PairView& m = views[i];
+    const bool is_served = m.prepared != nullptr && m.prepared->serves(m.a);
+    framed[i] = is_served ? framed_by(*m.prepared->impl_, m.a) : framed_alone(m);
   };
-  for_each_index(meshes.size(), frame, threads_for(bytes));
-  std::vector<Pair> pairs;
-  for (size_t i = 0; i < meshes.size(); ++i) {
-    const Framed& f = framed[i];
-    pairs.push_back({.a = meshes[i].a,
-                     .b = kept[i] != nullptr ? kept[i]->mesh : meshes[i].b,
-                     .frame = f.pair.frame,
-                     .stored_a = f.pair.a,
-                     .stored_b = kept[i] != nullptr ? nullptr : &f.pair.b,
-                     .resident = kept[i] != nullptr ? &kept[i]->resident : nullptr,
-                     .displacement = add_up(f.pair.a.displacement, f.displacement_b),
-                     .has_low = f.pair.a.has_low || f.has_low_b,
-                     .box_a = f.pair.box_a,
-                     .joint = join(f.pair.box_a, f.pair.box_b),
-                     .options = options[i],
-                     .hooks = hooks,
-                     .number = i});
+  for_each_index(views.size(), frame, threads_for(bytes));
+
+  std::vector<Pair> pairs, first;
+  for (size_t i = 0; i < views.size(); ++i) {
+    pairs.push_back(pair_of(views[i], framed[i]));
+    pairs[i].options = options[i];
+    pairs[i].hooks = hooks;
+    pairs[i].number = i;
+    first.push_back(coarser(pairs[i]));
   }
-  // Pairs without a limit are solved once; see pair.h.
-  return decide_limits(pairs, [&](const std::vector<Pair>& some) { return solve(some, start); });
+  std::vector<Report> reports = solve(first, start);
+  std::vector<Pair> open;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    if (asks_for_more(reports[i], first[i], pairs[i])) open.push_back(pairs[i]);
+  }
+  const std::vector<Report> finer = solve(open, start);
+  for (size_t i = 0; i < open.size(); ++i) {
+    Report& r = reports[open[i].number];
+    const Report coarse = std::exchange(r, finer[i]);
+    narrow(r, coarse);
+  }
+  return reports;
 }
 
 namespace {

@@ -91,22 +91,21 @@ TEST_CASE("what a known bound ends within plain floats' tolerance is asked again
             .joint = vkh::join(framed.box_a, framed.box_b),
             .options = limited(0.1, 0.1)};
   pair.options.known_lower = 0.1 - 1e-6;
-  std::vector<double> tolerances;
-  const auto search = [&](const std::vector<Pair>& some) {
-    const bool is_coarse = tolerances.empty();
-    tolerances.push_back(some[0].options.tolerance);
-    Report r;
-    r.known_lower = some[0].options.known_lower;
-    r.limit = some[0].options.limit;
-    r.tolerance = tolerance_of(some[0]);
-    r.upper = is_coarse ? 0.1 + 1e-7 : 0.1 - 1e-7;
-    r.status = is_coarse ? Status::kPruned : Status::kLimit;
-    return std::vector<Report>{r};
-  };
-  const std::vector<Report> found = decide_limits({pair}, search);
-  CHECK(tolerances == std::vector<double>{1e-6, 1e-7});
-  CHECK(verdict(found[0]) == Verdict::kWithin);
-  CHECK(found[0].status == Status::kLimit);
+  const Pair first = coarser(pair);
+  CHECK(first.options.tolerance == 1e-6);
+  Report r;
+  r.known_lower = pair.options.known_lower;
+  r.limit = pair.options.limit;
+  r.tolerance = tolerance_of(first);
+  r.upper = 0.1 + 1e-7;
+  r.status = Status::kPruned;
+  CHECK(asks_for_more(r, first, pair));
+  CHECK(r.tolerance == tolerance_of(pair));
+  CHECK(r.status == Status::kPrecision);
+  r.upper = 0.1 - 1e-7;
+  r.status = Status::kPruned;
+  CHECK_FALSE(asks_for_more(r, first, pair));
+  CHECK(r.status == Status::kLimit);
 }
 
 TEST_CASE("a limit that is no double lies between two") {
