@@ -1,7 +1,9 @@
 #include "vkhausdorff/frame.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -42,12 +44,12 @@ struct Scale {
 
 double scaled(double x, int exponent) { return Scale(exponent)(x); }
 
-// The nearest float, but 0 for one under 2^-126: a device may flush those as it reads them, and two
-// that differ would become one.
-float stored_float(double x) {
-  const float near = nearest_float(x);
-  return std::abs(near) >= std::numeric_limits<float>::min() ? near : 0.0f;
+// 0 for a float under 2^-126: a device may flush those as it reads them, and two that differ would
+// become one.
+float without_subnormals(float x) {
+  return std::abs(x) >= std::numeric_limits<float>::min() ? x : 0.0f;
 }
+float stored_float(double x) { return without_subnormals(nearest_float(x)); }
 
 struct Halves {
   float high, low;
@@ -114,8 +116,27 @@ void for_each_range(const Mesh& mesh, const F& work) {
   });
 }
 
+// Whether each coordinate is a float, and no subnormal one, once it is scaled: a frame around the
+// origin displaces none of them, and needs no low part. There is no branch, so that compilers
+// vectorise it. `least` is 0 if every double but 0 is scaled to 2^-126 or more.
+bool are_floats(const Frame& frame, const Mesh& mesh, VertexRange range) {
+  constexpr uint64_t kPastFloat = (uint64_t{1} << 29) - 1;  // bits of a double that no float has
+  constexpr int kLeastOfFloat = std::numeric_limits<float>::min_exponent - 1;
+  const double least = std::ldexp(1.0, kLeastOfFloat - frame.exponent);
+  uint64_t past = 0, small = 0;
+  for (size_t v = range.begin; v < range.end; ++v) {
+    const DVec3& given = mesh.vertices[v];
+    for (const double x : {given.x, given.y, given.z}) {
+      past |= std::bit_cast<uint64_t>(x) & kPastFloat;
+      small |= uint64_t{x != 0} & uint64_t{std::abs(x) < least};
+    }
+  }
+  return past == 0 && small == 0;
+}
+
 // Stops if `only_high` and a low part is needed.
 Stored store_range(const Frame& frame, const Mesh& mesh, VertexRange range, bool only_high) {
+  if (glm::dvec3(frame.centre) == glm::dvec3(0) && are_floats(frame, mesh, range)) return {};
   const Scale scale(frame.exponent);
   Stored stored;
   for (size_t v = range.begin; v < range.end && !(only_high && stored.has_low); ++v) {
@@ -165,10 +186,13 @@ std::optional<StoragePlan> store_exactly(const Frame& frame, const Mesh& mesh) {
 Box bounding_box(const Mesh& mesh) {
   std::vector<Box> boxes(parts_of(mesh));
   for_each_range(mesh, [&](size_t part, VertexRange range) {
-    Box box{mesh.vertices[range.begin], mesh.vertices[range.begin]};
-    for (size_t v = range.begin; v < range.end; ++v)
-      box = join(box, {mesh.vertices[v], mesh.vertices[v]});
-    boxes[part] = box;
+    glm::dvec3 lo = mesh.vertices[range.begin], hi = lo;  // in registers, as no Box would be
+    for (size_t v = range.begin; v < range.end; ++v) {
+      const DVec3& p = mesh.vertices[v];
+      lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+      hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+    }
+    boxes[part] = {lo, hi};
   });
   return std::accumulate(boxes.begin(), boxes.end(), boxes.front(), join);
 }
@@ -227,12 +251,28 @@ StoragePlan store_in(const Frame& frame, const Mesh& mesh) {
 void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low) {
   const Scale scale(stored.frame.exponent);
   const glm::dvec3 centre = stored.frame.centre;
-  for_each_range(mesh, [&](size_t, VertexRange range) {
-    for (size_t k = 3 * range.begin; k < 3 * range.end; ++k) {
-      const int axis = static_cast<int>(k % 3);
-      const Halves halves = halves_of(scale(mesh.vertices[k / 3][axis] - centre[axis]));
+  const auto scaled = [&](size_t v, int axis) {
+    return scale(mesh.vertices[v][axis] - centre[axis]);
+  };
+  const auto write_high = [&](size_t v) {
+    // No double is made of these again, so that the compiler may vectorise the conversion.
+    for (int axis = 0; axis < 3; ++axis)
+      high[3 * v + static_cast<size_t>(axis)] =
+          without_subnormals(static_cast<float>(scaled(v, axis)));
+  };
+  const auto write_both = [&](size_t v) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const size_t k = 3 * v + static_cast<size_t>(axis);
+      const Halves halves = halves_of(scaled(v, axis));
       high[k] = halves.high;
-      if (stored.has_low) low[k] = halves.low;
+      low[k] = halves.low;
+    }
+  };
+  for_each_range(mesh, [&](size_t, VertexRange range) {
+    if (stored.has_low) {
+      for (size_t v = range.begin; v < range.end; ++v) write_both(v);
+    } else {
+      for (size_t v = range.begin; v < range.end; ++v) write_high(v);
     }
   });
 }
