@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <optional>
 #include <type_traits>
 
 #include "host/answer/json_text.h"
@@ -44,16 +46,25 @@ std::string text_of(const Option& option, const Given& given) {
   return text;
 }
 
-Length length_of(const Option& option, const Given& given, const std::string& text) {
-  const bool is_tolerance = option.kind == Kind::kTolerance;
-  return parse_length(given.said.c_str(), text,
-                      is_tolerance ? PlainNumber::kSmallFraction : PlainNumber::kRefused);
+/// Reads a number up to its end; nothing where the text is none.
+std::optional<double> number_in(const std::string& text) {
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto result = number_from_chars(text.data(), end, number);
+  const bool is_one = result.ec == std::errc() && result.ptr == end;
+  return is_one ? std::optional(number) : std::nullopt;
+}
+
+PlainNumber plain_number(Kind kind, Outlet outlet) {
+  if (kind != Kind::kTolerance) return PlainNumber::kRefused;
+  return outlet == Outlet::kTyped ? PlainNumber::kSmallFraction : PlainNumber::kFraction;
 }
 
 std::vector<Length> lengths_of(const Option& option, const Given& given) {
   std::vector<Length> lengths;
   lengths.reserve(given.texts.size());
-  for (const std::string& text : given.texts) lengths.push_back(length_of(option, given, text));
+  for (const std::string& text : given.texts)
+    lengths.push_back(length_of(option.kind, given, text));
   return lengths;
 }
 
@@ -73,12 +84,19 @@ uint64_t whole_of(const Option& option, const Given& given) {
   refuse(given, text, whole_number(option));
 }
 
+/// A number of seconds may be 0, which ends at once, or infinite.
+double seconds_of(const Given& given) {
+  const std::optional<double> seconds = number_in(given.text());
+  if (seconds && *seconds >= 0) return *seconds;
+  refuse(given, given.text(), "a number of seconds, 0 or more");
+}
+
 double number_of(const Option& option, const Given& given) {
   const char* said = given.said.c_str();
   const std::string& text = given.text();
   switch (option.kind) {
     case Kind::kTime:
-      return parse_time(said, text);
+      return given.outlet == Outlet::kPythonNumber ? seconds_of(given) : parse_time(said, text);
     case Kind::kPercentile:
       return parse_percentile(said, text);
     case Kind::kAngle:
@@ -86,11 +104,8 @@ double number_of(const Option& option, const Given& given) {
     default:
       break;
   }
-  double number = 0;
-  const char* end = text.data() + text.size();
-  const auto result = number_from_chars(text.data(), end, number);
-  const bool is_one = result.ec == std::errc() && result.ptr == end;
-  if (is_one && is_within(option, number)) return number;
+  const std::optional<double> number = number_in(text);
+  if (number && is_within(option, *number)) return *number;
   refuse(
       given, text,
       "a number from " + shortest_decimal(option.least) + " to " + shortest_decimal(option.most));
@@ -108,7 +123,7 @@ struct TextReader {
     else if constexpr (std::is_same_v<T, std::string>)
       return text_of(option, given);
     else if constexpr (std::is_same_v<T, Length>)
-      return length_of(option, given, given.text());
+      return length_of(option.kind, given, given.text());
     else if constexpr (std::is_same_v<T, double>)
       return number_of(option, given);
     else if constexpr (std::is_same_v<T, PartOf>)
@@ -178,6 +193,23 @@ std::string whole_number(const Option& option) {
          std::to_string(static_cast<uint64_t>(option.most));
 }
 
+Length length_of(Kind kind, const Given& given, const std::string& text) {
+  if (given.outlet == Outlet::kPythonNumber) {
+    const std::optional<double> number = number_in(text);
+    const bool is_one = number && *number > 0 && std::isfinite(*number);
+    if (!is_one) refuse(given, text, "a positive number");
+    const bool is_fraction = kind == Kind::kTolerance;
+    return {.requested = text,
+            .number = *number,
+            .of = is_fraction ? Length::Of::kDiagonal : Length::Of::kFiles,
+            .is_double = true};
+  }
+  Length length = parse_length(given.said.c_str(), text, plain_number(kind, given.outlet));
+  if (given.outlet == Outlet::kPythonText && length.of == Length::Of::kUnit)
+    refuse(given, text, "a length without a unit, which arrays do not have");
+  return length;
+}
+
 void check_truth(const std::string& said, const std::string& text) {
   (void)truth_of({said, std::span(&text, 1)});
 }
@@ -208,9 +240,10 @@ std::string key_text(Request asked) {
 void put_max(const Given& given, Request& asked) {
   Question& question = asked.question;
   const std::string text(trimmed(given.text()));
-  question.max_sides = parse_sided(given.said.c_str(), text);
-  question.max = question.max_sides ? question.max_sides->over
-                                    : parse_length(given.said.c_str(), text, PlainNumber::kRefused);
+  const bool is_number = given.outlet == Outlet::kPythonNumber;
+  question.max_sides = is_number ? std::nullopt : parse_sided(given.said.c_str(), text);
+  question.max =
+      question.max_sides ? question.max_sides->over : length_of(Kind::kLength, given, text);
 }
 
 std::string typed_max(const Request& asked) {

@@ -17,6 +17,14 @@ std::string joined(const std::vector<std::string>& names, const char* last);
 /// The values that a count may have, for messages: "a whole number of cells from 0 to 100".
 std::string whole_number(const Option& option);
 
+/// Reads a length, or a tolerance, as `given` has it. Throws UsageError.
+///
+///                  | a number alone: of a length       | of a tolerance
+///   kTyped         | refused                           | a fraction of A's diagonal up to 1e-3
+///   kPythonText    | refused, as is a unit of its own  | a fraction of A's diagonal
+///   kPythonNumber  | in the files' unit                | a fraction of A's diagonal
+Length length_of(Kind kind, const Given& given, const std::string& text);
+
 /// Throws InputError for a text that is neither true nor false.
 void check_truth(const std::string& said, const std::string& text);
 

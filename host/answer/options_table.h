@@ -42,11 +42,19 @@ enum class Kind {
 enum class Group { kQuestion, kPlacement, kOutput, kDrawing, kMany, kCost };
 const char* heading_of(Group group);
 
+/// What a text is, which decides the meaning of a number alone.
+enum class Outlet {
+  kTyped,         ///< on the command line or in a list: lengths have a unit or are shares
+  kPythonText,    ///< a string of Python: no length has a unit, which arrays do not have
+  kPythonNumber,  ///< a number of Python, in the decimals that are this very double
+};
+
 /// A text that was given for an option, and the option's name in messages: --unit-a of the command
 /// line, unit_a of a list and of Python.
 struct Given {
   std::string said;
   std::span<const std::string> texts;  ///< several where the kind has commas; none of a flag
+  Outlet outlet = Outlet::kTyped;
   const std::string& text() const { return texts.front(); }
 };
 

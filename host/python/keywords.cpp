@@ -102,27 +102,30 @@ std::string expected_of_kind(const Option& option) {
   }
 }
 
-/// Reads a string such as '0.1%' or '0.01abs'. Arrays have no known unit: '0.1mm' is refused.
-Length length_from_text(const Value& value, PlainNumber plain) {
-  Length length;
-  try {
-    length = parse_length(value.name, value.text(), plain);
-  } catch (const UsageError&) {
-    value.refuse();
-  }
-  if (length.of == Length::Of::kUnit) value.refuse();
-  return length;
+/// A value as the table reads it.
+struct Typed {
+  std::string text;
+  Outlet outlet;
+};
+
+/// A number is a share, or per cent; a text of one says so itself: "99.5%".
+void check_part(const Option& option, const Value& value, const std::string& text) {
+  const bool is_part = option.kind == Kind::kShare || option.kind == Kind::kPercentile;
+  if (!is_part || text.ends_with('%')) return;
+  if (option.kind == Kind::kShare) value.refuse();
+  refuse_type(value.name, value.expected, value.given);
 }
 
-/// Reads a number, which is `of` that, or such a string.
-Length length_from(const Value& value, Length::Of of) {
-  if (value.is_text()) {
-    const bool is_fraction = of == Length::Of::kDiagonal;
-    return length_from_text(value, is_fraction ? PlainNumber::kFraction : PlainNumber::kRefused);
-  }
-  const double number = number_from(value.name, value.expected, value.given);
-  if (!(number > 0) || std::isinf(number)) value.refuse();
-  return {.requested = shortest_decimal(number), .number = number, .of = of, .is_double = true};
+Typed typed(const Option& option, const Value& value) {
+  const Kind kind = option.kind;
+  const bool is_number = kind == Kind::kTime || kind == Kind::kAngle;
+  const bool is_text = kind == Kind::kUnit || kind == Kind::kChoice || kind == Kind::kSize;
+  if (is_number || (!is_text && !value.is_text()))
+    return {shortest_decimal(number_from(value.name, value.expected, value.given)),
+            Outlet::kPythonNumber};
+  Typed one{value.text(), Outlet::kPythonText};
+  check_part(option, value, one.text);
+  return one;
 }
 
 bool is_row(const py::object& given) {
@@ -132,24 +135,23 @@ bool is_row(const py::object& given) {
   return array && array.ndim() == 1;
 }
 
-std::vector<Length> lengths_from(const Value& value) {
+std::vector<Length> lengths_from(const Option& option, const Value& value) {
   const bool is_list =
       py::isinstance<py::list>(value.given) || py::isinstance<py::tuple>(value.given);
   if (!is_list && !(py::isinstance<py::array>(value.given) && is_row(value.given)))
     refuse_type(value.name, "a list of distances", value.given);
   std::vector<Length> lengths;
   for (const py::handle one : value.given) {
-    const auto item = py::reinterpret_borrow<py::object>(one);
-    lengths.push_back(length_from({value.name, value.expected, item}, Length::Of::kFiles));
+    const auto given = py::reinterpret_borrow<py::object>(one);
+    const Value item{value.name, value.expected, given};
+    const auto [text, outlet] = typed(option, item);
+    try {
+      lengths.push_back(length_of(option.kind, {value.name, {}, outlet}, text));
+    } catch (const UsageError&) {
+      item.refuse();
+    }
   }
   return lengths;
-}
-
-double number_of(const Option& option, const Value& value) {
-  const double number = number_from(value.name, value.expected, value.given);
-  const bool is_one = option.kind == Kind::kTime ? number >= 0 : number > 0 && number <= 90;
-  if (!is_one) value.refuse();
-  return number;
 }
 
 uint64_t whole_of(const Option& option, const Arguments& all, const Value& value) {
@@ -167,39 +169,40 @@ std::string path_of_certificate(const Value& value) {
   return *path;
 }
 
-/// Whether a value is read as the command line has it.
+/// Whether the table reads a value, as it reads what is typed.
 bool is_as_typed(const Option& option, const Value& value) {
   switch (option.kind) {
     case Kind::kUnit:
     case Kind::kChoice:
     case Kind::kShare:
     case Kind::kPercentile:
+    case Kind::kLength:
+    case Kind::kTolerance:
+    case Kind::kAngle:
+    case Kind::kTime:
       return true;
     default:
       return option.kind == Kind::kSize && value.is_text();
   }
 }
 
-/// A number is a share, or per cent; a text of one says so itself: "99.5%".
-std::string typed_text(const Option& option, const Value& value) {
-  const bool is_part = option.kind == Kind::kShare || option.kind == Kind::kPercentile;
-  if (is_part && !value.is_text())
-    return shortest_decimal(number_from(value.name, value.expected, value.given));
-  std::string text = value.text();
-  if (!is_part || text.ends_with('%')) return text;
-  if (option.kind == Kind::kShare) value.refuse();
-  refuse_type(value.name, value.expected, value.given);
+/// Whether the table's own words say more: a percentile may tell 0.95 from 95, and limits of two
+/// sides which of them is missing.
+bool says_more(const Option& option, const Typed& one) {
+  const bool is_sided = one.text.starts_with('+') || one.text.starts_with('-');
+  return option.kind == Kind::kPercentile ||
+         (is_sided && std::string_view(option.name) == "max" && one.outlet == Outlet::kPythonText);
 }
 
 /// A default, such as 'refuse', may be none of the command line's choices.
 void read_as_typed(const Option& option, const Value& value, Request& asked) {
-  const std::string text = typed_text(option, value);
-  const bool is_default = text.empty() || "'" + text + "'" == option.none;
+  const Typed one = typed(option, value);
+  const bool is_default = one.text.empty() || "'" + one.text + "'" == option.none;
   if (option.kind == Kind::kChoice && is_default) return;
   try {
-    put(option, {value.name, std::span(&text, 1)}, asked);
+    put(option, {value.name, std::span(&one.text, 1), one.outlet}, asked);
   } catch (const UsageError&) {
-    if (option.kind == Kind::kPercentile) throw;  // it may tell 0.95 from 95
+    if (says_more(option, one)) throw;
     value.refuse();
   }
 }
@@ -225,20 +228,16 @@ void read_face_limits(const Value& max, Question& question) {
                         .is_double = true};
 }
 
-void read_max(const Value& max, Functions function, Question& question) {
-  if (max.is_text()) question.max_sides = parse_sided("max", max.text());
-  if (question.max_sides) {
-    question.max = question.max_sides->over;
-  } else if (function == kPyGate && is_row(max.given)) {
-    read_face_limits(max, question);
-  } else {
-    question.max = length_from(max, Length::Of::kFiles);
-  }
+void read_max(const Value& max, Functions function, Request& asked) {
+  if (function == kPyGate && !max.is_text() && is_row(max.given))
+    read_face_limits(max, asked.question);
+  else
+    read_as_typed(*option_of("max"), max, asked);
 }
 
-void read_field(const Value& field, Question& question) {
-  question.faces = !is_bool(field.given) || py::cast<bool>(field.given);
-  if (!is_bool(field.given)) question.face_tolerance = length_from(field, Length::Of::kDiagonal);
+void read_field(const Value& field, Request& asked) {
+  asked.question.faces = !is_bool(field.given) || py::cast<bool>(field.given);
+  if (!is_bool(field.given)) read_as_typed(*option_of("field-tol"), field, asked);
 }
 
 MatrixRows matrix_from(const Value& value) {
@@ -273,12 +272,11 @@ struct OwnRow {
 
 const OwnRow* own_row(std::string_view name) {
   static const OwnRow rows[] = {
-      {"max", "",
-       [](const Value& value, Functions f, Request& asked) { read_max(value, f, asked.question); }},
+      {"max", "", read_max},
       {"field-tol",
        "True or False, or how narrow each face's bounds are to be: a positive number, a fraction "
        "of A's diagonal, or a string such as '0.1%' or '0.01abs'",
-       [](const Value& value, Functions, Request& asked) { read_field(value, asked.question); }},
+       [](const Value& value, Functions, Request& asked) { read_field(value, asked); }},
       {"points", "True for a, 'a', 'b' or 'both', or None",
        [](const Value& value, Functions, Request& asked) {
          const PointSides sides = point_sides(value.given);
@@ -293,6 +291,9 @@ const OwnRow* own_row(std::string_view name) {
   return found == std::end(rows) ? nullptr : found;
 }
 
+template <class T, class... Types>
+constexpr bool is_one_of = (std::is_same_v<T, Types> || ...);
+
 /// Reads a keyword's value, by the member's type and the option's kind.
 struct ValueReader {
   const Option& option;
@@ -301,21 +302,16 @@ struct ValueReader {
 
   template <class T>
   T value() const {
-    const bool is_tolerance = option.kind == Kind::kTolerance;
     if constexpr (std::is_same_v<T, bool>)
       return all.flag(given.name);
     else if constexpr (std::is_same_v<T, std::string>)
       return path_of_certificate(given);
-    else if constexpr (std::is_same_v<T, Length>)
-      return length_from(given, is_tolerance ? Length::Of::kDiagonal : Length::Of::kFiles);
-    else if constexpr (std::is_same_v<T, double>)
-      return number_of(option, given);
-    else if constexpr (std::is_same_v<T, PartOf>)
-      given.refuse();  // no keyword is a part
+    else if constexpr (is_one_of<T, Length, double, PartOf>)
+      given.refuse();  // the table reads those, and no keyword is a part
     else if constexpr (std::is_same_v<T, std::vector<std::string>>)
       return all.texts(given.name);
     else if constexpr (std::is_same_v<T, std::vector<Length>>)
-      return lengths_from(given);
+      return lengths_from(option, given);
     else
       return static_cast<T>(whole_of(option, all, given));
   }

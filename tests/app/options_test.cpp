@@ -193,6 +193,56 @@ std::string refusal(const Act& act) {
 
 }  // namespace
 
+namespace {
+
+/// What is asked with this value of an option, or nothing where that is refused.
+std::optional<Question> asked_with(const char* name, const std::string& text, Outlet outlet) {
+  Request asked;
+  const std::string message = refusal([&] {
+    put(*option_of(name), {name, std::span(&text, 1), outlet}, asked);
+  });
+  return message.empty() ? std::optional(asked.question) : std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("a number alone means what its outlet says: a length") {
+  for (const Outlet outlet : {Outlet::kTyped, Outlet::kPythonText}) {
+    CHECK(!asked_with("max", "0.25", outlet));
+    CHECK(!asked_with("max-distance", "0.25", outlet));
+    CHECK(!asked_with("bands", "0.25", outlet));
+  }
+  const std::optional<Question> number = asked_with("max", "0.25", Outlet::kPythonNumber);
+  REQUIRE(number);
+  CHECK(number->max->of == Length::Of::kFiles);
+  CHECK(number->max->number == 0.25);
+  CHECK(number->max->is_double);
+  CHECK(asked_with("max-distance", "0.25", Outlet::kPythonNumber)->max_distance->is_double);
+  CHECK(asked_with("bands", "0.25", Outlet::kPythonNumber)->bands.front().is_double);
+  for (const char* wrong : {"0", "-1", "+1,-1", "inf", "1abs", ""})
+    CHECK_MESSAGE(!asked_with("max", wrong, Outlet::kPythonNumber), wrong);
+}
+
+TEST_CASE("arrays have no unit") {
+  CHECK(asked_with("max", "0.1mm", Outlet::kTyped)->max->of == Length::Of::kUnit);
+  CHECK(!asked_with("max", "0.1mm", Outlet::kPythonText));
+  CHECK(asked_with("max", "0.1abs", Outlet::kPythonText)->max->of == Length::Of::kFiles);
+}
+
+TEST_CASE("a number alone means what its outlet says: a tolerance, a time") {
+  CHECK(!asked_with("tol", "0.01", Outlet::kTyped));
+  for (const Outlet outlet : {Outlet::kPythonText, Outlet::kPythonNumber}) {
+    const std::optional<Question> asked = asked_with("tol", "0.01", outlet);
+    REQUIRE(asked);
+    CHECK(asked->tolerance.of == Length::Of::kDiagonal);
+    CHECK(asked->tolerance.is_double == (outlet == Outlet::kPythonNumber));
+  }
+  CHECK(asked_with("time", "0", Outlet::kPythonNumber)->budget.time_limit_s == 0);
+  CHECK(asked_with("time", "inf", Outlet::kPythonNumber));
+  CHECK(!asked_with("time", "-1", Outlet::kPythonNumber));
+  CHECK(!asked_with("time", "0", Outlet::kTyped));
+}
+
 TEST_CASE("a rule of questions is the same for a command line, a row of a list and C++") {
   const std::string rule = ": figures are of both directions and no verdict: leave out ";
   const Words words{"batch", "list.csv", "--out", "out.jsonl", "--metrics"};
