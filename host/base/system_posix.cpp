@@ -27,7 +27,7 @@ static void on_interrupt(int) { g_interrupted = true; }
 void note_signal(int signal) {
   struct sigaction action {};
   action.sa_handler = on_interrupt;
-  action.sa_flags = SA_RESETHAND | SA_RESTART;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(signal, &action, nullptr);
 }
 
