@@ -3,7 +3,7 @@
 set(VKH_TESTS_ALONE
   "/verification/math/"   # at the build's own optimization, and rebuilt one by one by tools/mutation.py
   "/faults/"              # layers and failing allocations, from before main on
-  "/cgal_test"            # CGAL's headers take half a minute
+  "/cgal_test"            # CGAL's headers take 22 s to compile
   "/frame_test"           # as math's
   "/diagonal_test"        # as math's
   "/read_cost_test"       # replaces operator new

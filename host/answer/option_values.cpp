@@ -46,7 +46,8 @@ std::string text_of(const Option& option, const Given& given) {
   return text;
 }
 
-/// Reads a number up to its end; nothing where the text is none.
+/// Reads a number up to its end; nothing where the text is none. Unlike parse_number(), it takes
+/// inf, which a time may be.
 std::optional<double> number_in(const std::string& text) {
   double number = 0;
   const char* end = text.data() + text.size();

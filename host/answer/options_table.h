@@ -42,7 +42,7 @@ enum class Kind {
 enum class Group { kQuestion, kPlacement, kOutput, kDrawing, kMany, kCost };
 const char* heading_of(Group group);
 
-/// What a text is, which decides the meaning of a number alone.
+/// Says where a text comes from, which decides what a number alone means.
 enum class Outlet {
   kTyped,         ///< on the command line or in a list: lengths have a unit or are shares
   kPythonText,    ///< a string of Python: no length has a unit, which arrays do not have

@@ -321,11 +321,11 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> views,
   for (size_t i = 0; i < pairs.size(); ++i) {
     if (asks_for_more(reports[i], first[i], pairs[i])) open.push_back(pairs[i]);
   }
-  const std::vector<Report> finer = solve(open, start);
+  std::vector<Report> finer = solve(open, start);
   for (size_t i = 0; i < open.size(); ++i) {
-    Report& r = reports[open[i].number];
-    const Report coarse = std::exchange(r, finer[i]);
-    narrow(r, coarse);
+    Report& coarse = reports[open[i].number];
+    narrow(finer[i], coarse);
+    coarse = std::move(finer[i]);
   }
   return reports;
 }

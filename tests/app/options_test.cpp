@@ -195,7 +195,7 @@ std::string refusal(const Act& act) {
 
 namespace {
 
-/// What is asked with this value of an option, or nothing where that is refused.
+/// Returns the question that this value of an option asks, or nothing where it is refused.
 std::optional<Question> asked_with(const char* name, const std::string& text, Outlet outlet) {
   Request asked;
   const std::string message = refusal([&] {

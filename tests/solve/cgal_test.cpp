@@ -59,7 +59,10 @@ void check_run(const Mesh& a, const Mesh& b) {
   const double size = diagonal(joined(a, b));
   const std::optional<Interval> cgal = cgal_hausdorff(a, b, 1e-4 * size);
   REQUIRE(cgal);
-  const Interval ours = interval(solver().distance(a, b));
+  const Report r = solver().distance(a, b);
+  CHECK(r.lower <= r.upper);
+  if (r.status == Status::kClosed) CHECK(r.upper - r.lower <= r.tolerance);
+  const Interval ours = interval(r);
   CAPTURE(ours.lower);
   CAPTURE(ours.upper);
   CAPTURE(cgal->lower);

@@ -106,6 +106,7 @@ TEST_CASE("what a known bound ends within plain floats' tolerance is asked again
   r.status = Status::kPruned;
   CHECK_FALSE(asks_for_more(r, first, pair));
   CHECK(r.status == Status::kLimit);
+  CHECK(verdict(r) == Verdict::kWithin);
 }
 
 TEST_CASE("a limit that is no double lies between two") {

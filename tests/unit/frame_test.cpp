@@ -190,7 +190,7 @@ TEST_CASE("the frame's displacement covers every vertex; its lengths are rounded
   CHECK(tally.counted("exact with a centre") > count / 100);
 }
 
-// Of such meshes it is found without a sum of each vertex whether they are stored as they are.
+// Bits tell of such meshes that they are stored as they are, without a sum of each vertex.
 TEST_CASE("floats around the origin, and one coordinate with a bit more or near 2^-126") {
   Random random(20240804);
   Tally tally("floats");
