@@ -274,6 +274,24 @@ bool record_in_step(Recorder& together, const Rules& rules, const VkhTask* tasks
   return true;
 }
 
+// A call of a survey: its rules, and the problem and the streams that it works on.
+struct SurveyCall {
+  SurveyCall(VkhContext context, VkCommandBuffer commands, const VkhProblem& problem,
+             const VkhSurvey& survey, uint64_t cells)
+      : rules(*context, commands),
+        is_kept(rules.survey(problem, survey, cells) &&
+                gpu::bounds_cells(context->limits.switches, context->limits.wide)),
+        p(view_problem(*context, problem)),
+        streams(view_survey(survey, p.face_count)) {}
+
+  bool records() const { return is_kept && is_built(p); }
+
+  Rules rules;
+  bool is_kept;
+  Problem p;
+  SurveyStreams streams;
+};
+
 // Bytes of the largest stream that must be bound and grows with A; the areas, which are not in the
 // workspace, count too.
 VkDeviceSize largest_of_a(const Limits& limits, uint32_t vertex_count, uint32_t face_count) {
@@ -510,4 +528,74 @@ void vkhCmdRunTasks(VkhContext context, VkCommandBuffer commandBuffer, uint32_t 
     return;
   }
   for (uint32_t i = 0; i < taskCount; ++i) vkh::record_task(rec, rules, tasks[i]);
+}
+
+uint32_t vkhGetSurveyCapacity(VkhContext context) { return vkh::largest_survey(context->limits); }
+
+VkDeviceSize vkhGetSurveySize(VkhContext, uint32_t faceCount, uint32_t capacity) {
+  return vkh::survey_size(faceCount, capacity);
+}
+
+void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                       const VkhSurvey* survey, const VkhSurveyBegin* begin) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, problem->a.faceCount);
+  if (!call.records()) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_begin(rec, call.p, call.streams,
+                           {begin->weightBuffer, begin->weightOffset, call.streams.weights.size},
+                           begin->farthest);
+}
+
+void vkhCmdScoreSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                       const VkhSurvey* survey, const VkhSurveyScore* score) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, score->cells);
+  if (!call.records()) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_score(rec, call.p, call.streams, *score);
+}
+
+void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                       const VkhSurvey* survey, const VkhSurveySplit* split) {
+  const uint64_t parents = uint64_t{split->above} + split->ties;
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, split->cells + 3 * parents);
+  if (!call.records() || parents > vkh::survey_parents(survey->capacity)) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_split(rec, call.p, call.streams, *split);
+}
+
+// NOLINTNEXTLINE(readability-function-size)
+void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                       const VkhSurvey* survey, const VkhSurveyBound* bound, VkhProfile* profile) {
+  const uint64_t cells =
+      bound->live == 0 ? problem->a.faceCount : bound->live + 3 * uint64_t{bound->parents};
+  vkh::SurveyCall call(context, commandBuffer, *problem, *survey, cells);
+  if (!call.records() || !call.rules.profile(profile) || bound->count == 0) return;
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  vkh::record_survey_bound(rec, call.p, call.streams, *bound);
+}
+
+void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                       const VkhSurvey* survey, const VkhSurveyTally* tally) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, tally->cells);
+  if (!call.records()) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_tally(rec, call.p, call.streams, *tally);
+}
+
+void vkhCmdReadSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                      const VkhSurvey* survey, const VkhSurveyRead* read) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, read->cells);
+  if (!call.records()) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_read(rec, call.p, call.streams, *read);
+}
+
+// NOLINTNEXTLINE(readability-function-size)
+void vkhCmdMoveSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                      const VkhSurvey* from, const VkhSurvey* to, uint32_t cells) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *from, cells);
+  vkh::SurveyCall target(context, commandBuffer, *problem, *to, cells);
+  if (!call.records() || !target.records()) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_move(rec, call.streams, target.streams, cells);
 }

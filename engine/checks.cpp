@@ -197,6 +197,19 @@ bool Rules::cells(const VkhProblem& p, const VkhCells& cells) {
   return kept_;
 }
 
+bool Rules::survey(const VkhProblem& p, const VkhSurvey& survey, uint64_t cells) {
+  if (!problem(p) || !are_checked()) return kept_;
+  VKH_RULE("a survey: a context of VKH_CONTEXT_CELLS",
+           gpu::bounds_cells(context_.limits.switches, context_.limits.wide));
+  memory(survey.memory);
+  VKH_RULE("VkhSurvey::capacity: at least A's faces, at most vkhGetSurveyCapacity",
+           survey.capacity >= p.a.faceCount && survey.capacity <= largest_survey(context_.limits));
+  VKH_RULE("VkhSurvey::memory: at least vkhGetSurveySize bytes",
+           survey.memory.size >= survey_size(p.a.faceCount, survey.capacity));
+  VKH_RULE("a survey: room for all cells", cells >= 1 && cells <= survey.capacity);
+  return kept_;
+}
+
 bool Rules::closest(const VkhHierarchy& b, const VkhClosestQuery& query) {
   if (!are_checked()) return true;
   VKH_RULE("vkhCmdFindClosest: a context of VKH_CONTEXT_CLOSEST",

@@ -8,17 +8,22 @@ void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
   struct Given : RunBuffers {
     Slice<gpu::Cell> cells;
     Slice<gpu::CellBounds> bounds;
+    Slice<uint32_t> parents, faces_reached;  // a survey's alone
     gpu::CellPush push;
   };
   const bool given = asked.cells.buffer != VK_NULL_HANDLE;
   const Given all{RunBuffers(p),
                   given ? asked.cells : as<gpu::Cell>(p.ws.unused),
                   asked.bounds,
+                  p.ws.unused,
+                  p.ws.unused,
                   {.count = asked.count,
-                   .given = given ? 1u : 0u,
+                   .given = given ? gpu::kGivenCells : gpu::kFacesOfA,
                    .first = asked.first,
                    .face_count = p.face_count,
-                   .triangle_count = asked.has_run ? p.b.face_count : 0}};
+                   .triangle_count = asked.has_run ? p.b.face_count : 0,
+                   .parents = 0,
+                   .live = 0}};
   rec.run<k::CellBounds>(all, Items{asked.count});
   rec.stage("cells");
 }

@@ -104,6 +104,27 @@ struct AskedCells {
   bool has_run = true;  // false: there are no distances, and bounds are NaN
 };
 void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
+// A survey's cells. The host reads and writes through buffers of its own; each call waits for the
+// one before it.
+void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const Slice<gpu::Wide>& weights, float farthest);
+// Scores all cells by the plan, and counts them by bins into `histogram`.
+void record_survey_score(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurveyScore& score);
+void record_survey_split(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurveySplit& split);
+// Bounds new cells, which may be several submissions' work.
+void record_survey_bound(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurveyBound& bound);
+// Adds up all cells at the plan's edges into `table`.
+void record_survey_tally(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurveyTally& tally);
+// Copies each face's reached, and then each face's highest, as VkhSurveyRead has it; and the cells.
+void record_survey_read(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                        const VkhSurveyRead& read);
+// Copies what the survey knows into one with more room.
+void record_survey_move(Recorder& rec, const SurveyStreams& from, const SurveyStreams& to,
+                        uint32_t cells);
 // The points whose closest faces of B are to be found.
 struct AskedPoints {
   Slice<gpu::Vertex> asked;

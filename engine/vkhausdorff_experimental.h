@@ -1,7 +1,9 @@
-/* VkHausdorff, parts of the method by switches: for ablations, for the comparison with the paper,
+/* VkHausdorff, what has no contract yet: parts of the method by switches, and surveys whose cells
+ * stay on the device. Any version may change what is here.
+ *
+ * Parts of the method by switches: for ablations, for the comparison with the paper,
  * and to measure what the certificate costs. Renderers need nothing of this:
- * VkhContextCreateInfo::switches 0 selects what pays on the device. Any version may change what is
- * here.
+ * VkhContextCreateInfo::switches 0 selects what pays on the device.
  *
  * The interval is true without any of the parts, but for VKH_SWITCH_UNCERTIFIED. */
 #ifndef VKHAUSDORFF_EXPERIMENTAL_H
@@ -37,4 +39,100 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_DEFAULT_WIDE = 4 + 8 + 16 + 64 + 256 + 512 + 8192 + 65536
 } VkhSwitchBits;
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A survey: cells that tile A, with bounds of d(x, B), which are split where a plan of the caller's
+ * says that it helps. The structs that the caller's buffers hold are those of shaders/gpu_types.h,
+ * SurveyPlan and SurveyTable. Calls need a context of VKH_CONTEXT_CELLS and, from
+ * vkhCmdBeginSurvey on, a problem whose run has begun; they are recorded in their order, and each
+ * waits for the one before it. Offsets are multiples of 256 bytes. Results are written in
+ * ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use of them. */
+typedef struct VkhSurvey {
+  VkhMemory memory;  /* vkhGetSurveySize; usage STORAGE_BUFFER, TRANSFER_SRC, TRANSFER_DST */
+  uint32_t capacity; /* cells that it has room for: at least A's faces */
+} VkhSurvey;
+
+/* The most cells that the device's bindings reach. */
+VKH_API uint32_t vkhGetSurveyCapacity(VkhContext context);
+VKH_API VkDeviceSize vkhGetSurveySize(VkhContext context, uint32_t faceCount, uint32_t capacity);
+
+typedef struct VkhSurveyBegin {
+  VkBuffer weightBuffer; /* an integer of 64 bits for each face of A, all together under 2^62;
+                          * usage TRANSFER_SRC */
+  VkDeviceSize weightOffset;
+  float farthest; /* no distance is above it */
+} VkhSurveyBegin;
+/* Makes each face of A a cell, without bounds: vkhCmdBoundSurvey has them, with live 0. */
+VKH_API void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, const VkhSurvey* survey,
+                               const VkhSurveyBegin* begin);
+
+typedef struct VkhSurveyScore {
+  uint32_t cells;      /* that there are */
+  VkBuffer planBuffer; /* SurveyPlan; usage TRANSFER_SRC */
+  VkDeviceSize planOffset;
+  VkBuffer histogramBuffer; /* uint32_t[2048], how many cells each bin has; usage TRANSFER_DST */
+  VkDeviceSize histogramOffset;
+} VkhSurveyScore;
+/* Scores all cells: by the bits of a score above the 20 lowest, a cell has its bin, 0 for none. */
+VKH_API void vkhCmdScoreSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, const VkhSurvey* survey,
+                               const VkhSurveyScore* score);
+
+typedef struct VkhSurveySplit {
+  uint32_t cells; /* that there are */
+  uint32_t bin;   /* cells of larger bins are split, `above` of them, */
+  uint32_t ties;  /* and the first so many of this bin: three new cells each, for which there must
+                   * be room, and no more than a quarter of the capacity together */
+  uint32_t above;
+} VkhSurveySplit;
+VKH_API void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, const VkhSurvey* survey,
+                               const VkhSurveySplit* split);
+
+typedef struct VkhSurveyBound {
+  uint32_t first, count; /* of the new cells: four for each that was split, or A's faces */
+  uint32_t parents;      /* how many were split */
+  uint32_t live;         /* cells before that; 0 for A's faces */
+} VkhSurveyBound;
+VKH_API void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, const VkhSurvey* survey,
+                               const VkhSurveyBound* bound, VkhProfile* profile);
+
+typedef struct VkhSurveyTally {
+  uint32_t cells; /* that there are */
+  int32_t unit;   /* every distance is below 2^(unit - 127) */
+  VkBuffer planBuffer;
+  VkDeviceSize planOffset;
+  VkBuffer tableBuffer; /* SurveyTable; usage TRANSFER_DST */
+  VkDeviceSize tableOffset;
+} VkhSurveyTally;
+VKH_API void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, const VkhSurvey* survey,
+                               const VkhSurveyTally* tally);
+
+typedef struct VkhSurveyRead {
+  uint32_t cells;      /* that there are */
+  VkBuffer faceBuffer; /* float[2 * faceCount]: some point of the face is at least so far; then, of
+                        * each face, no point is farther; null: not wanted; usage TRANSFER_DST */
+  VkDeviceSize faceOffset;
+  VkBuffer cellBuffer; /* VkhCell[cells]; null: not wanted; usage TRANSFER_DST */
+  VkDeviceSize cellOffset;
+  VkBuffer boundsBuffer; /* VkhCellBounds[cells]; with cellBuffer */
+  VkDeviceSize boundsOffset;
+} VkhSurveyRead;
+VKH_API void vkhCmdReadSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                              const VkhProblem* problem, const VkhSurvey* survey,
+                              const VkhSurveyRead* read);
+
+/* Copies a survey of so many cells into memory with more room, which takes its place. */
+VKH_API void vkhCmdMoveSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                              const VkhProblem* problem, const VkhSurvey* from, const VkhSurvey* to,
+                              uint32_t cells);
+
+#ifdef __cplusplus
+}
+#endif
 #endif

@@ -147,6 +147,20 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
   w.capacity = capacity;
 }
 
+void list(Suballocator& take, SurveyStreams& s, uint32_t face_count, uint32_t capacity) {
+  take(s.weights, face_count);
+  take(s.faces_reached, face_count);
+  take(s.faces_highest, face_count);
+  take(s.cells, capacity);
+  take(s.bounds, capacity);
+  take(s.keys, capacity);
+  take(s.parents, survey_parents(capacity));
+  take(s.blocks, capacity / gpu::kSurveyBlock + 1);
+  take(s.histogram, gpu::kScoreBins);
+  take(s.plan, 1);
+  take(s.table, 1);
+}
+
 // As kMaySplitTwice of shaders/wave/split_counts.glsl.
 bool may_split_twice(uint32_t switches) {
   return (switches & (gpu::kUseSplitTwice | gpu::kUseFilter | gpu::kUsePacket)) ==
@@ -253,6 +267,25 @@ uint32_t capacity_for(const Limits& limits, uint32_t vertex_count, uint32_t face
     (needed <= bytes ? fits : too_many) = middle;
   }
   return fits;
+}
+
+VkDeviceSize survey_size(uint32_t face_count, uint32_t capacity) {
+  Suballocator count(Ranges{});
+  SurveyStreams s;
+  list(count, s, face_count, capacity);
+  return count.used();
+}
+
+uint32_t largest_survey(const Limits& limits) {
+  const VkDeviceSize most = limits.storage_range / sizeof(gpu::CellBounds);
+  return static_cast<uint32_t>(std::min<VkDeviceSize>(most, gpu::kMaxTriangles));
+}
+
+SurveyStreams view_survey(const VkhSurvey& survey, uint32_t face_count) {
+  Suballocator take(Ranges{survey.memory});
+  SurveyStreams s;
+  list(take, s, face_count, survey.capacity);
+  return s;
 }
 
 Hierarchy view_hierarchy(const VkhHierarchy& hierarchy, const Limits& limits) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "engine/context.h"
+#include "engine/vkhausdorff_experimental.h"
 #include "shaders/stages.h"
 
 namespace vkh {
@@ -77,6 +78,27 @@ struct Workspace {
   SortStreams sort;                  // kUseSort; otherwise only values[0] is set
   uint32_t capacity = 0;
 };
+
+// A survey's cells, and what the host's plan makes of them.
+struct SurveyStreams {
+  Slice<gpu::Wide> weights;       // of each face of A
+  Slice<uint32_t> faces_reached;  // per face of A, floats as bits: some point is at least so far,
+  Slice<uint32_t> faces_highest;  // and none is farther
+  Slice<gpu::Cell> cells;
+  Slice<gpu::CellBounds> bounds;    // one per cell
+  Slice<uint32_t> keys;             // one per cell: the bin of its score
+  Slice<uint32_t> parents;          // the places of the cells that a wave has split
+  Slice<gpu::SurveyCounts> blocks;  // one per kSurveyBlock cells
+  Slice<uint32_t> histogram;        // one per bin
+  Slice<gpu::SurveyPlan> plan;
+  Slice<gpu::SurveyTable> table;
+};
+// A wave splits at most a quarter of the cells that there is room for.
+constexpr uint32_t survey_parents(uint32_t capacity) { return capacity / 4 + 1; }
+VkDeviceSize survey_size(uint32_t face_count, uint32_t capacity);
+// The most cells that the device's bindings reach.
+uint32_t largest_survey(const Limits& limits);
+SurveyStreams view_survey(const VkhSurvey& survey, uint32_t face_count);
 
 // One of a wave's sizes, by its member.
 using WaveSize = gpu::Dispatch gpu::WaveSizes::*;

@@ -210,6 +210,30 @@ VKH_CONST uint kMaxWaveRecords = 64u;
 
 // cell_bounds: triangles of B that are examined for one cell before boxes stand for the rest.
 VKH_CONST uint kCellTriangles = 128u;
+// CellPush::given.
+VKH_CONST uint kFacesOfA = 0u;
+VKH_CONST uint kGivenCells = 1u;
+VKH_CONST uint kSurveyCells = 2u;  // the new cells of a survey, at their places
+
+// A survey's cells (shaders/survey). Edges of a tally, distances of a score; a score's bins, 8 an
+// octave; cells of a block, which are split in order.
+VKH_CONST uint kSurveyEdges = 256u;
+VKH_CONST uint kSurveyOpen = 64u;
+VKH_CONST uint kScoreBins = 2048u;
+VKH_CONST uint kSurveyBlock = 1024u;
+// Workgroups of a kernel that goes over all cells, at most.
+VKH_CONST uint kSurveyGroups = 1024u;
+// SurveyTable::sums: for each edge the area of cells that it cuts, and of those that are the first
+// time all within it; as it surely is, and perhaps.
+VKH_CONST uint kSurelyPart = 0u;
+VKH_CONST uint kSurelyWhole = kSurveyEdges;
+VKH_CONST uint kPerhapsPart = 2u * kSurveyEdges;
+VKH_CONST uint kPerhapsWhole = 3u * kSurveyEdges;
+VKH_CONST uint kMeanLower = 4u * kSurveyEdges;
+VKH_CONST uint kMeanUpper = kMeanLower + 1u;
+VKH_CONST uint kSquareLower = kMeanLower + 2u;
+VKH_CONST uint kSquareUpper = kMeanLower + 3u;
+VKH_CONST uint kSurveySums = kMeanLower + 4u;
 // closest_faces: triangles of B that are examined for one point before boxes stand for the rest,
 // and how many of them to 48 bits.
 VKH_CONST uint kClosestTriangles = 1u << 16;
@@ -439,6 +463,38 @@ struct CellBounds {
   uint triangle;                // the same in the BVH's order
 };
 
+// An integer of 64 bits.
+struct Wide {
+  uint low, high;
+};
+
+// A distance that is not known better than that.
+struct SurveyEdge {
+  float down, up;
+};
+
+// What the host asks of a survey's cells. The edges ascend, in both members.
+struct SurveyPlan {
+  uint edge_count, open_count;
+  float of_whole;      // 1 over the weight of all faces
+  float mean, square;  // what a width of the mean, and of the mean square, scores; 0: nothing
+  SurveyEdge edges[kSurveyEdges];  // of the tally
+  SurveyEdge open[kSurveyOpen];    // area that is undecided there scores
+  float shares[kSurveyOpen];       // so much
+};
+
+// What a survey's cells tell of A: sums of weights, and of weighted values over the largest one.
+struct SurveyTable {
+  Wide sums[kSurveySums];
+  uint highest;     // the largest distance from above, as bits
+  uint not_lowest;  // the least one from below: the bits' complement
+};
+
+// Cells of a block, or of those before it: those above a key, and those with the key.
+struct SurveyCounts {
+  uint above, ties;
+};
+
 // The face of B closest to a point, and d(point, B): base + lower_above <= d <= base + upper_above.
 struct ClosestFace {
   float base, lower_above, upper_above;
@@ -579,10 +635,34 @@ struct FacesPush {
 // cell_bounds
 struct CellPush {
   uint count;           // of cells
-  uint given;           // 0: they are faces of A
-  uint first;           // the first of these
+  uint given;           // kFacesOfA, kGivenCells or kSurveyCells
+  uint first;           // the first of the faces of A, or of the survey's new cells
   uint face_count;      // of A
   uint triangle_count;  // of B
+  uint parents;         // new cells that took the place of the one that they are a part of
+  uint live;            // the place of the others
+};
+
+// survey_begin
+struct SurveyBeginPush {
+  uint faces;
+  float farthest;  // no distance is above it
+};
+
+// survey_score and survey_tally
+struct SurveyPush {
+  uint cells;
+  uint groups;      // of the dispatch
+  int unit;         // distances are below 2^(unit - 127),
+  int square_unit;  // and their squares below 2^(square_unit - 127)
+};
+
+// survey_count, survey_scan and survey_split
+struct SurveySplitPush {
+  uint cells;
+  uint key;    // cells with a larger one are split,
+  uint ties;   // and so many that have this one
+  uint above;  // cells with a larger one
 };
 
 // closest_faces

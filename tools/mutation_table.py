@@ -13,6 +13,8 @@ BARY = "shaders/math/bary.h"
 DYADIC = "shaders/math/dyadic.h"
 CELL = "shaders/report/cell.h"
 PARTS = "shaders/math/parts.h"
+WIDE = "shaders/survey/wide.h"
+TALLY = "shaders/survey/tally.h"
 LOWER = "shaders/math/lower.h"
 FRAME = "host/solve/frame.cpp"
 LENGTH = "host/base/length.cpp"
@@ -25,6 +27,7 @@ ON_BOUNDS = ["lib_attack_test", "lib_bounds_test", "lib_model_test"]
 ON_BARY = ["lib_attack_test", "lib_bary_test", "lib_model_test"]
 ON_CELL = ["lib_cell_model_test", "lib_cell_test"]
 ON_PARTS = ["lib_parts_model_test", "lib_parts_test"]
+ON_TALLY = ["lib_tally_test"]
 ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
 ON_LENGTH = ["diagonal_test"]
@@ -158,6 +161,24 @@ ROWS = [
     row("bound_third's corner", PAPER, "max(d, max(middles", ["max(min(d, middles), max(middles"], ON_BOUNDS),
     row("bound_third's centroid", PAPER, "max(middles, surface_distance_up(centre, s))",
         ["max(middles, min(middles, surface_distance_up(centre, s)))"], ON_BOUNDS),
+
+    # wide.h and tally.h
+    row("wide_sum's carry", WIDE, "a.y + b.y + choose(low < a.x, 1u, 0u)", ["a.y + b.y"], ON_TALLY),
+    row("wide_shifted's high word", WIDE, "(low >> bits) | from_high", ["low >> bits"], ON_TALLY),
+    row("wide_scaled's carry", WIDE, "more = more + choose(middle < high, 1u, 0u);", [""], ON_TALLY),
+    row("wide_scaled's highest word", WIDE, "(middle >> shift) | (more << (32u - shift))", ["middle >> shift"], ON_TALLY),
+    row("halvings_of's borrow", TALLY, " - choose(uint(p_low) < uint(q_low), 1u, 0u)", [""], ON_TALLY),
+    row("cell_weight from above", TALLY, "wide_sum(w.down, uvec2(1u, 0u))", ["w.down"], ON_TALLY),
+    row("share_down's weight", TALLY, "wide_scaled(w.down, uint(share * 16777216.0f), 24u)",
+        ["wide_scaled(w.up, uint(share * 16777216.0f), 24u)"], ON_TALLY),
+    row("share_up's ceiling", TALLY, "m = m + choose(float(m) < scaled, 1u, 0u);", [""], ON_TALLY),
+    row("share_up's unit", TALLY, "wide_sum(wide_scaled(w.up, m, 24u), uvec2(1u, 0u))", ["wide_scaled(w.up, m, 24u)"], ON_TALLY),
+    row("weighed's exponent", TALLY, "23 + unit - exponent", ["22 + unit - exponent", "24 + unit - exponent"], ON_TALLY),
+    row("weighed's leading bit", TALLY, "(bits & 0x7fffffu) | 0x800000u", ["bits & 0x7fffffu"], ON_TALLY),
+    row("weighed_up's unit", TALLY, "choose(bits_of(value) == 0u, 0u, 1u)", ["0u"], ON_TALLY),
+    row("weighed_up's weight", TALLY, "uvec2 down = weighed(w.up, value, unit);", ["uvec2 down = weighed(w.down, value, unit);"], ON_TALLY),
+    row("tally_bounds' square", TALLY, "round_up(b.highest * t.mean_upper, 1.0f)", ["0.99f * b.highest * t.mean_upper"], ON_TALLY),
+    row("lowest_of", TALLY, "max(least3(b.lower), 0.0f)", ["max(max3(b.lower), 0.0f)"], ON_TALLY),
 
     # parts.h
     counts("shortened", PARTS, "1.0f - {8.0f} * kUlp, norm_up(r)", ON_PARTS, steps=[4.0, 0.0, -32.0]),

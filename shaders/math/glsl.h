@@ -30,6 +30,7 @@ using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;
 using glm::vec3;
+using std::sqrt;  // of floats
 using namespace vkh::gpu;
 }  // namespace vkh::lib
 #else

@@ -137,30 +137,56 @@ VKH_FN Between between(float down, float up) {
   return b;
 }
 
-// The share of the triangle on which s > t. Each factor is a quotient of two differences, off by
-// 4.5 kUlp, so their product is by 10, and 1 less it by one more. Values that lie within 2^-60 of
-// each other are not told apart.
-VKH_FN Between share_beyond(vec3 s, float t) {
-  float least = least3(s);
-  float most = max3(s);
-  if (t >= most) return between(0.0f, 0.0f);
-  if (t < least) return between(1.0f, 1.0f);
-  if (most - least <= kTiny) return between(0.0f, 1.0f);
-  float middle = max(min(s.x, s.y), min(max(s.x, s.y), s.z));
-  bool is_low = t < middle;
-  float from = choose(is_low, t - least, most - t);
-  float side = choose(is_low, middle - least, most - middle);
-  float corner = ratio(from, side) * ratio(from, most - least);
+// An affine function's values at the corners in order, and what its shares beyond any t have in
+// common: 1 over the products of the differences of which they are quotients.
+struct Spread {
+  float least, middle, most;
+  float low, high;  // for a t below the middle, and for one that is not
+};
+
+VKH_FN Spread spread_of(vec3 s) {
+  Spread p;
+  p.least = least3(s);
+  p.most = max3(s);
+  p.middle = max(min(s.x, s.y), min(max(s.x, s.y), s.z));
+  float whole = p.most - p.least;
+  p.low = ratio(1.0f, (p.middle - p.least) * whole);
+  p.high = ratio(1.0f, (p.most - p.middle) * whole);
+  return p;
+}
+
+// Values that lie within it of each other are not told apart: of others each product over
+// kSmallSquare is one whose corner has more than 2^-48 of the triangle.
+VKH_CONST float kLeastSpread = 5.9604645e-8f;  // 2^-24
+
+// The share of the triangle on which s > t: a corner's, or what it leaves. The corner's is the
+// square of a difference, off by 3 kUlp, times `low` or `high`, which are by 5.5, so by 9.5 in all,
+// and 1 less it by one more.
+VKH_FN Between share_beyond(Spread s, float t) {
+  if (t >= s.most) return between(0.0f, 0.0f);
+  if (t < s.least) return between(1.0f, 1.0f);
+  if (s.most - s.least <= kLeastSpread) return between(0.0f, 1.0f);
+  bool is_low = t < s.middle;
+  float from = choose(is_low, t - s.least, s.most - t);
+  float corner = min((from * from) * choose(is_low, s.low, s.high), 1.0f);
   float share = choose(is_low, 1.0f - corner, corner);
   return between(max(share - 12.0f * kUlp, 0.0f), min(share + 12.0f * kUlp, 1.0f));
+}
+
+// The share on which s <= t.
+VKH_FN Between share_within(Spread s, float t) {
+  if (t < s.least) return between(0.0f, 0.0f);
+  Between over = share_beyond(s, t);
+  return between(choose(over.up > 0.0f, max((1.0f - over.up) - 2.0f * kUlp, 0.0f), 1.0f),
+                 choose(over.down > 0.0f, min((1.0f - over.down) + 2.0f * kUlp, 1.0f), 1.0f));
 }
 
 // The share on which s <= t, or |s| <= t: what is beyond t on either side is disjoint. The sums
 // are of numbers up to 1: two roundings each.
 VKH_FN Between share_of(vec3 s, float t, bool of_size) {
-  Between over = share_beyond(s, t);
+  Between over = share_beyond(spread_of(s), t);
   Between under = between(0.0f, 0.0f);
-  if (of_size) under = share_beyond(-s, t);
+  if (of_size) under = share_beyond(spread_of(-s), t);
   if (of_size && t < 0.0f) return between(0.0f, 0.0f);
   float most = over.up + under.up;
   float least = over.down + under.down;

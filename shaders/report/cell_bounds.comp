@@ -1,5 +1,6 @@
-// Bounds d(x, B) over cells of A, one item per cell: sub-triangles of its faces, or faces
-// push.first and after if none are given. In: cells; A and B's BVH. Out: bounds[cell]. One
+// Bounds d(x, B) over cells of A, one item per cell: sub-triangles of its faces; faces push.first
+// and after; or a survey's new cells, at their places. In: cells; A and B's BVH. Out: bounds[cell],
+// and of a survey's cell its start and its face's faces_reached, a float as bits. One
 // traversal finds the triangle nearest to the cell's middle; another examines all that may be
 // closest somewhere on the cell (report/cell.h), kCellTriangles of them at most; boxes stand for
 // the rest. Each result depends on its cell alone. If A or B is no mesh, or if there is no run
@@ -17,18 +18,27 @@ layout(scalar, binding = 3) readonly buffer TriangleLows { TriangleLow triangle_
 layout(scalar, binding = 4) readonly buffer Vertices { Vertex vertices[]; };
 layout(scalar, binding = 5) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, binding = 6) readonly buffer VertexNearest { uint vertex_nearest[]; };
-layout(scalar, binding = 7) readonly buffer Cells { Cell cells[]; };
-layout(scalar, binding = 8) writeonly buffer Bounds { CellBounds bounds[]; };
+layout(scalar, binding = 7) buffer Cells { Cell cells[]; };
+layout(scalar, binding = 8) buffer Bounds { CellBounds bounds[]; };
 layout(scalar, binding = 9) readonly buffer BFault { uint b_fault; };
+layout(scalar, binding = 10) readonly buffer Parents { uint parents[]; };
+layout(scalar, binding = 11) buffer FacesReached { uint faces_reached[]; };
 layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 
 #include "shaders/base/root.glsl"
 #include "shaders/report/cell.h"
 #include "shaders/traversal/traversal.glsl"
 
+// The place of an item.
+uint place_of(uint i) {
+  if (push.given != kSurveyCells) return i;
+  uint item = push.first + i;
+  return item < push.parents ? parents[item] : push.live + item - push.parents;
+}
+
 Cell cell_at(uint i) {
-  if (push.given != 0u) {
-    Cell c = cells[i];
+  if (push.given != kFacesOfA) {
+    Cell c = cells[place_of(i)];
     c.face = min(c.face, push.face_count - 1u);
     return c;
   }
@@ -147,6 +157,15 @@ CellBounds bounds_of(Gathered g, CellFrame t) {
   return b;
 }
 
+// No distance over a part of a cell is above the cell's highest, which is there before.
+CellBounds kept_bounds(CellBounds b, uint place, uint face) {
+  b.highest = min(b.highest, bounds[place].highest);
+  b.mean_upper = min(b.mean_upper, b.highest);
+  cells[place].start = b.triangle;
+  atomicMax(faces_reached[face], bits_of(b.reached));
+  return b;
+}
+
 bool is_of_meshes() {
   return push.triangle_count != 0u && control.input_fault == kNone && b_fault == kNone;
 }
@@ -166,5 +185,8 @@ void main() {
   }
   Cell cell = cell_at(i);
   CellFrame t = make_cell(load_root(cell.face), unpack_corners(cell.corners));
-  bounds[i] = bounds_of(with_pairs(gather(t, cell.start), t), t);
+  CellBounds found = bounds_of(with_pairs(gather(t, cell.start), t), t);
+  uint place = place_of(i);
+  if (push.given == kSurveyCells) found = kept_bounds(found, place, cell.face);
+  bounds[place] = found;
 }

@@ -1,0 +1,65 @@
+// How much a split of a cell helps: the cell's part of the widths of the figures that are not yet
+// narrow. A score only steers.
+#ifndef VKH_SHADERS_SURVEY_SCORE_H
+#define VKH_SHADERS_SURVEY_SCORE_H
+
+#include "shaders/math/bary.h"
+#include "shaders/survey/tally.h"
+
+VKH_LIB_BEGIN
+
+// A width in the frame: what plain floats leave of a cell's bounds, a few times over. Splits gain
+// nothing below it.
+VKH_CONST float kScoreFloor = 2e-6f;
+
+// The share of the cell that is not known to be within a distance, or beyond it.
+VKH_FN float undecided_share(TallyBounds b, SurveyEdge at) {
+  return max(perhaps_within(b, at.up) - surely_within(b, at.down), 0.0f);
+}
+
+VKH_FN float mean_width(TallyBounds b) { return max(b.mean_upper - mean_over_down(b.lower), 0.0f); }
+VKH_FN float square_width(TallyBounds b) {
+  return max(b.square_upper - square_over_down(b.lower), 0.0f);
+}
+
+// The split of a cell into four as a code of math/dyadic.h: by the middles of its edges, or, if it
+// is thin, by halving its longest edge and then those of the halves. kSplitNone: the bits have run
+// out.
+VKH_FN uint cell_split(Root root, Bary3 at) {
+  Corners t = plain_corners(root, at);
+  uint code = kSplitMidpoint;
+  if (quality(t) < kThinQuality) {
+    uint x = opposite_longest(t);
+    Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
+    uvec3 all = uvec3(0u, 1u, 2u);
+    uint y = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 0u))));
+    uint z = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 1u))));
+    code = bisection_code(x, y, z);
+  }
+  if (can_split(at, code)) return code;
+  return choose(can_split(at, kSplitMidpoint), kSplitMidpoint, kSplitNone);
+}
+
+// The bin of a score: eight an octave, larger ones for larger scores; 0 for none.
+VKH_FN uint score_bin(float score) {
+  uint bits = bits_of(score);
+  return choose(score >= kLeastNormal, min(bits >> 20, kScoreBins - 1u), 0u);
+}
+
+// What a split leaves of a cell's bounds until its parts are bounded themselves: an affine function
+// has other values at a part's corners.
+VKH_FN CellBounds bounds_of_parts(CellBounds b) {
+  float lowest = max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);
+  b.lower_a = lowest;
+  b.lower_b = lowest;
+  b.lower_c = lowest;
+  b.upper_a = b.highest;
+  b.upper_b = b.highest;
+  b.upper_c = b.highest;
+  b.mean_upper = b.highest;
+  b.square_upper = 3.0e38f;
+  return b;
+}
+
+VKH_LIB_END
+#endif

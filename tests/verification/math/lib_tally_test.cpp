@@ -1,0 +1,168 @@
+// shaders/survey/tally.h and wide.h against exact integers: what a cell adds to the sums lies on
+// the side that it is named for, and loses no more than a unit. Spoiled roundings must be noticed.
+#include <doctest/doctest.h>
+#include <gmpxx.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "shaders/survey/score.h"
+#include "shaders/survey/tally.h"
+#include "tests/shapes/shapes.h"
+
+namespace {
+
+using namespace vkh;
+using namespace vkh::test;
+using lib::uvec2;
+
+mpz_class exact(uint64_t x) {
+  mpz_class high(static_cast<unsigned long>(x >> 32));
+  return (high << 32) + static_cast<unsigned long>(x & 0xffffffffu);
+}
+mpz_class exact(const uvec2& x) { return exact(uint64_t{x.y} << 32 | x.x); }
+uvec2 words(uint64_t x) { return {static_cast<uint32_t>(x), static_cast<uint32_t>(x >> 32)}; }
+
+/// Integers under 2^62 of any size, all ones and powers of two among them.
+uint64_t any_weight(Random& random) {
+  const auto bits = static_cast<int>(random.below(63));
+  const uint64_t mask = (uint64_t{1} << bits) - 1;
+  switch (random.below(4)) {
+    case 0:
+      return mask;
+    case 1:
+      return mask + 1 < (uint64_t{1} << 62) ? mask + 1 : mask;
+    default:
+      return random.bits() & mask;
+  }
+}
+
+constexpr int kCases = 200'000;
+
+TEST_CASE("wide.h: sums, shifts and scaled products are exact, or rounded down") {
+  Random random(1);
+  for (int i = 0; i < kCases; ++i) {
+    const uint64_t a = any_weight(random), b = any_weight(random);
+    CHECK(exact(lib::wide_sum(words(a), words(b))) == exact(a) + exact(b));
+    const auto shift = static_cast<uint32_t>(random.below(64));
+    CHECK(exact(lib::wide_shifted(words(a), shift)) == exact(a) >> shift);
+    const auto m = static_cast<uint32_t>(random.below((1u << 24) + 1));
+    const auto far = static_cast<uint32_t>(24 + random.below(73));
+    const mpz_class product = exact(a) * m;
+    CHECK(exact(lib::wide_scaled(words(a), m, far)) == product >> far);
+  }
+}
+
+TEST_CASE("tally.h: a cell is halved as often as its corners say") {
+  Random random(2);
+  for (int i = 0; i < 2000; ++i) {
+    lib::Bary3 t = lib::whole_root();
+    unsigned halvings = 0;
+    while (random.below(12) != 0) {
+      const auto opposite = static_cast<uint32_t>(random.below(3));
+      if (!lib::has_middle_opposite(t, opposite)) break;
+      const lib::Halves halves = lib::halves_of(t, opposite, lib::middle_opposite(t, opposite));
+      t = random.below(2) != 0 ? halves.first : halves.second;
+      ++halvings;
+    }
+    CHECK(lib::halvings_of(t) == halvings);
+  }
+}
+
+TEST_CASE("tally.h: weights, shares and weighed values are rounded outward, by a unit or two") {
+  Random random(3);
+  for (int i = 0; i < kCases; ++i) {
+    const uint64_t face = any_weight(random);
+    const auto halvings = static_cast<uint32_t>(random.below(41));
+    const lib::CellWeight w = lib::cell_weight(words(face), halvings);
+    const mpq_class weight = mpq_class(exact(face)) / mpq_class(mpz_class(1) << halvings);
+    CHECK(exact(w.down) <= weight);
+    CHECK(exact(w.up) >= weight);
+    CHECK(exact(w.up) - exact(w.down) <= 1);
+
+    const auto share = static_cast<float>(random.below(3) == 0 ? random.below(2) : random.unit());
+    const mpq_class part = weight * mpq_class(static_cast<double>(share));
+    CHECK(exact(lib::share_down(w, share)) <= part);
+    CHECK(exact(lib::share_up(w, share)) >= part);
+    CHECK(exact(lib::share_up(w, share)) - part <= 3 + weight / (1 << 24));
+
+    const int unit = static_cast<int>(127 - 40 + random.below(60));
+    float value = std::ldexp(static_cast<float>(random.unit()),
+                             unit - 127 - static_cast<int>(random.below(50)));
+    if (random.below(20) == 0) value = 0;
+    if (random.below(20) == 0) value = std::ldexp(1.0f, -140);  // a device may flush it
+    mpq_class of_unit(static_cast<double>(value));
+    of_unit *= weight;
+    if (unit > 127) of_unit /= mpq_class(mpz_class(1) << (unit - 127));
+    if (unit < 127) of_unit *= mpq_class(mpz_class(1) << (127 - unit));
+    CHECK(exact(lib::weighed_down(w, value, unit)) <= of_unit);
+    CHECK(exact(lib::weighed_up(w, value, unit)) >= of_unit);
+    CHECK(exact(lib::weighed_up(w, value, unit)) - of_unit <= 2);
+    CHECK(of_unit - exact(lib::weighed_down(w, value, unit)) <= 2);
+  }
+}
+
+TEST_CASE("tally.h: a value of nought adds nothing, from above either") {
+  const lib::CellWeight w = lib::cell_weight(words(uint64_t{1} << 61), 3);
+  CHECK(exact(lib::weighed_up(w, 0.0f, 127)) == 0);
+  CHECK(exact(lib::weighed_up(w, -0.0f, 127)) == 0);
+  CHECK(exact(lib::weighed_up(w, 0x1p-140f, 127)) == 1);
+}
+
+TEST_CASE("tally.h: a cell is within no distance below its lowest, and within its highest") {
+  gpu::CellBounds b{};
+  b.lower_a = -0.5f, b.lower_b = 0.25f, b.lower_c = 1;
+  b.upper_a = 0.5f, b.upper_b = 1, b.upper_c = 3;
+  b.highest = 2, b.mean_upper = 5, b.square_upper = 100;
+  const lib::TallyBounds t = lib::tally_bounds(b);
+  CHECK(lib::lowest_of(t) == 0);
+  CHECK(t.mean_upper == 2);
+  CHECK(t.square_upper >= 4);
+  CHECK(t.square_upper <= 4.001f);
+  CHECK(lib::surely_within(t, 2) == 1);
+  CHECK(lib::surely_within(t, 1.999f) < 1);
+  CHECK(lib::surely_within(t, 0.4f) == 0);
+  CHECK(lib::perhaps_within(t, 1) == 1);
+  CHECK(lib::perhaps_within(t, 0.999f) >= 0.99f);
+  CHECK(lib::perhaps_within(t, -0.6f) == 0);
+}
+
+TEST_CASE("score.h: bins ascend with scores, eight an octave, and nought has none") {
+  CHECK(lib::score_bin(0.0f) == 0);
+  CHECK(lib::score_bin(0x1p-130f) == 0);
+  CHECK(lib::score_bin(2.0f) - lib::score_bin(1.0f) == 8);
+  uint32_t last = 0;
+  for (float score = 0x1p-120f; score < 1e30f; score *= 1.05f) {
+    CHECK(lib::score_bin(score) >= last);
+    last = lib::score_bin(score);
+  }
+  CHECK(last < gpu::kScoreBins);
+}
+
+TEST_CASE("score.h: a cell is split into four of a quarter each, as long as the bits last") {
+  const lib::Root thick =
+      lib::make_root(lib::two({0, 0, 0}), lib::two({1, 0, 0}), lib::two({0, 1, 0}));
+  const lib::Root thin =
+      lib::make_root(lib::two({0, 0, 0}), lib::two({1, 0, 0}), lib::two({0.5f, 0.01f, 0}));
+  for (const lib::Root& root : {thick, thin}) {
+    lib::Bary3 at = lib::whole_root();
+    unsigned depth = 0;
+    for (uint32_t code = lib::cell_split(root, at); code != lib::kSplitNone;
+         code = lib::cell_split(root, at)) {
+      const lib::Bary6 points = lib::split_points(at, code);
+      for (uint32_t k = 0; k < 4; ++k) {
+        const lib::Bary3 child = lib::child_of(points, lib::child_points(code, k));
+        CHECK(lib::halvings_of(child) == 2 * depth + 2);
+      }
+      at = lib::child_of(points, lib::child_points(code, 3));
+      ++depth;
+    }
+    CHECK(depth >= 15);
+  }
+  CHECK(lib::cell_split(thick, lib::whole_root()) == lib::kSplitMidpoint);
+  CHECK(lib::cell_split(thin, lib::whole_root()) != lib::kSplitMidpoint);
+}
+
+}  // namespace
