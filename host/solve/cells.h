@@ -1,8 +1,11 @@
 // Cells of A, for surveys, and single points: a device bounds them beside a run.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "shaders/gpu_types.h"
 #include "vkhausdorff/frame.h"
@@ -25,6 +28,41 @@ struct PointBatch {
   bool has_low = false;               ///< B's vertices have low parts
 };
 
+/// The cells to split: those whose score's bin is larger than `bin`, `above` of them, and the first
+/// `ties` of this bin.
+struct SurveyChoice {
+  uint32_t bin = 0, above = 0, ties = 0;
+  uint32_t count() const { return above + ties; }
+};
+
+/// A survey's cells, which stay on the device: they tile A, each with its bounds. Calls block until
+/// the device has done what they ask for, but for those that say otherwise.
+class SurveyCells {
+ public:
+  virtual ~SurveyCells() = default;
+  /// Makes each face of A a cell, without bounds. `weights`: of the faces' areas, together under
+  /// 2^62. No distance is above `farthest`, in the frame.
+  virtual void begin(std::span<const uint64_t> weights, float farthest) = 0;
+  virtual size_t count() const = 0;
+  /// The most cells that the device can bind.
+  virtual size_t most() const = 0;
+  /// Counts the cells by the bins of their scores: gpu::kScoreBins, 0 for none.
+  virtual std::span<const uint32_t> score(const gpu::SurveyPlan& plan) = 0;
+  /// Splits each chosen cell into four, which have no bounds of their own until bound(); returns
+  /// false, and does nothing, if there is no memory for them. It need not wait.
+  virtual bool split(const SurveyChoice& choice) = 0;
+  /// Bounds new cells, which are four for each that was split, or A's faces. `wait`: false if more
+  /// of them or a tally follow.
+  virtual void bound(size_t first, size_t count, bool wait) = 0;
+  /// Adds up all cells at the plan's edges. Every distance is below 2^(unit - 127).
+  virtual const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit) = 0;
+  /// Returns, of each face of A, a distance that some point reaches, and then, of each, one that
+  /// none exceeds.
+  virtual std::vector<float> faces() = 0;
+  /// Reads all cells and their bounds.
+  virtual void read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) = 0;
+};
+
 /// A pair whose run has ended, while it still lies on the device.
 struct SurveyedPair {
   const Mesh& a;
@@ -33,6 +71,7 @@ struct SurveyedPair {
   double displacement;  ///< both meshes' together, in the frame
   double farthest;      ///< the run's upper bound: no distance is larger, in the files' units
   bool on_cpu;          ///< batches should be small
+  SurveyCells* cells = nullptr;  ///< null: its cells can only be bounded
 };
 
 /// Bounds cells of A; blocks until it is done.

@@ -291,6 +291,18 @@ void Runner::bound_cells(PairBuffers& buffers, const CellBatch& batch) {
   buffers.read_bounds(batch);
 }
 
+void Runner::survey(const RunInput& input, PairBuffers& buffers, const VkhReport& report) {
+  DeviceCells cells(device_, context_, buffers.problem(), survey_buffers_,
+                    [&](const DeviceCells::Record& record) {
+                      const VkCommandBuffer commands = begin();
+                      record(commands);
+                      full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+                      submit_and_wait(commands);
+                    });
+  input.survey(
+      report, [&](const CellBatch& batch) { bound_cells(buffers, batch); }, cells);
+}
+
 void Runner::find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBatch& batch) {
   const SerialGuard::Hold hold(guard_);
   std::array<RunInput, 1> alone;
@@ -356,9 +368,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
     }
   }
   for (size_t i = 0; i < inputs.size(); ++i) {
-    if (inputs[i].survey)
-      inputs[i].survey(outputs[i].report,
-                       [&](const CellBatch& batch) { bound_cells(*buffers_[i], batch); });
+    if (inputs[i].survey) survey(inputs[i], *buffers_[i], outputs[i].report);
   }
   return outputs;
 }

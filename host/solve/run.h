@@ -8,6 +8,7 @@
 
 #include "host/base/serial_guard.h"
 #include "host/gpu/pipeline_cache.h"
+#include "host/solve/device_cells.h"
 #include "host/solve/pair_buffers.h"
 
 namespace vkh {
@@ -43,6 +44,7 @@ class Runner {
   double submit(const Submission& submission, std::vector<RunOutput>& outputs);
   void submit_and_wait(VkCommandBuffer commands);
   void bound_cells(PairBuffers& buffers, const CellBatch& batch);
+  void survey(const RunInput& input, PairBuffers& buffers, const VkhReport& report);
   void read_stages(const Submission& submission, std::vector<RunOutput>& outputs);
 
   const Device& device_;
@@ -52,6 +54,7 @@ class Runner {
   Submitter submitter_;
   MemoryPool pool_;  // of buffers_, where there are several
   std::vector<std::unique_ptr<PairBuffers>> buffers_;
+  SurveyBuffers survey_buffers_;
   MemoryPolicy policy_ = MemoryPolicy::kDevice;  // the policy of buffers_
   VkhContext context_ = nullptr;
   VkhProfile profile_{};

@@ -118,13 +118,14 @@ struct Watch {
   }
 };
 
-SurveyedPair surveyed(const Pair& pair, const VkhReport& report, bool on_cpu) {
+SurveyedPair surveyed(const Pair& pair, const VkhReport& report, bool on_cpu, SurveyCells& cells) {
   return {.a = pair.a,
           .b = pair.b,
           .frame = pair.frame,
           .displacement = pair.displacement,
           .farthest = to_files(report, pair).upper,
-          .on_cpu = on_cpu};
+          .on_cpu = on_cpu,
+          .cells = &cells};
 }
 
 Report report_of(const RunOutput& run, const Watch& watch) {
@@ -194,8 +195,9 @@ std::vector<Report> Solver::Impl::solve_with_switches(const std::vector<Pair>& p
     inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
     if (pair.hooks != nullptr && pair.hooks->survey) {
       const bool on_cpu = device.description().type == "cpu";
-      inputs.back().survey = [&, on_cpu](const VkhReport& report, const BoundCells& bound) {
-        pair.hooks->survey(surveyed(pair, report, on_cpu), bound);
+      inputs.back().survey = [&, on_cpu](const VkhReport& report, const BoundCells& bound,
+                                         SurveyCells& cells) {
+        pair.hooks->survey(surveyed(pair, report, on_cpu, cells), bound);
       };
     }
   }

@@ -1,0 +1,59 @@
+// The cells of a survey on a Vulkan device.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/vkhausdorff_experimental.h"
+#include "host/gpu/memory.h"
+#include "host/solve/cells.h"
+
+namespace vkh {
+
+/// Buffers of a survey, kept for the next one.
+struct SurveyBuffers {
+  Buffer memory;                   // the device's own
+  Buffer weights, plan;            // written by the host
+  Buffer histogram, table, faces;  // read by it,
+  Buffer cells, bounds;            // and these if it takes over
+};
+
+class DeviceCells : public SurveyCells {
+ public:
+  using Record = std::function<void(VkCommandBuffer)>;
+  /// Submits what it records, and waits.
+  using Submit = std::function<void(const Record&)>;
+
+  /// All arguments outlive it. The problem's run has begun.
+  DeviceCells(const Device& device, VkhContext context, const VkhProblem& problem,
+              SurveyBuffers& buffers, Submit submit);
+
+  void begin(std::span<const uint64_t> weights, float farthest) override;
+  size_t count() const override { return count_; }
+  size_t most() const override { return vkhGetSurveyCapacity(context_); }
+  std::span<const uint32_t> score(const gpu::SurveyPlan& plan) override;
+  bool split(const SurveyChoice& choice) override;
+  void bound(size_t first, size_t count, bool wait) override;
+  const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit) override;
+  std::vector<float> faces() override;
+  void read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) override;
+
+ private:
+  VkhSurvey view() const {
+    return {{buffers_.memory.handle(), 0, buffers_.memory.size()}, capacity_};
+  }
+  bool make_room(size_t cells);
+  void write_plan(const gpu::SurveyPlan& plan);
+  void submit();
+
+  const Device& device_;
+  const VkhContext context_;
+  const VkhProblem& problem_;
+  SurveyBuffers& buffers_;
+  const Submit submit_;
+  std::vector<Record> waiting_;  // for the next submission
+  uint32_t capacity_ = 0, count_ = 0;
+  VkhSurveyBound fresh_{};  // the new cells
+};
+
+}  // namespace vkh
