@@ -5,9 +5,11 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "host/base/parallel.h"
 #include "host/survey/cell_corners.h"
+#include "shaders/survey/tally.h"
 
 namespace vkh {
 namespace {
@@ -74,6 +76,22 @@ CellStore::CellStore(const Mesh& a, float farthest) : a_(a), reached_(a.faces.si
   depth_.assign(cells_.size(), 0);
   opposite_.resize(cells_.size());
   each_of(cells_.size(), [&](size_t i) { see_split(i); });
+  set_shares();
+}
+
+CellStore::CellStore(const Mesh& a, std::vector<gpu::Cell> cells,
+                     std::vector<gpu::CellBounds> bounds, std::vector<float> reached)
+    : a_(a), cells_(std::move(cells)), bounds_(std::move(bounds)), reached_(std::move(reached)) {
+  depth_.resize(cells_.size());
+  opposite_.resize(cells_.size());
+  each_of(cells_.size(), [&](size_t i) {
+    depth_[i] = static_cast<uint8_t>(lib::halvings_of(corners_of(cells_[i])));
+    see_split(i);
+  });
+  set_shares();
+}
+
+void CellStore::set_shares() {
   for (unsigned depth = 0; depth <= kMostDepth; ++depth)
     shares_.push_back(std::ldexp(1.0, -static_cast<int>(depth)));
 }

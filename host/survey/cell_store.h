@@ -22,6 +22,9 @@ class CellStore {
  public:
   /// No distance is above `farthest`.
   CellStore(const Mesh& a, float farthest);
+  /// Takes over cells that a device has refined, with the distances that each face reaches.
+  CellStore(const Mesh& a, std::vector<gpu::Cell> cells, std::vector<gpu::CellBounds> bounds,
+            std::vector<float> reached);
 
   size_t count() const { return cells_.size(); }
   const gpu::Cell& cell(size_t i) const { return cells_[i]; }
@@ -43,6 +46,7 @@ class CellStore {
 
   /// The greatest distance known on a face: some point is so far, and none is known to be farther.
   float reached(uint32_t face) const { return reached_[face]; }
+  const std::vector<float>& reached_of_faces() const { return reached_; }
   std::vector<float> highest_of_faces() const;
   /// The same on any face.
   float reached() const;
@@ -53,6 +57,7 @@ class CellStore {
 
   void split(size_t i, size_t half);
   void see_split(size_t i);
+  void set_shares();
 
   const Mesh& a_;
   std::vector<gpu::Cell> cells_;

@@ -8,11 +8,9 @@
 
 namespace vkh {
 
-Distribution::Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest,
-                           std::vector<Threshold> served, const GoesOn& goes_on)
+Distribution::Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest)
     : cells_(std::move(cells)),
       areas_(std::move(areas)),
-      estimates_(pair, cells_, areas_, std::move(served), goes_on),
       frame_(pair.frame),
       displacement_(pair.displacement),
       largest_(largest),
@@ -21,19 +19,14 @@ Distribution::Distribution(const SurveyedPair& pair, CellStore cells, Areas area
 
 std::vector<Enclosure> Distribution::shares_within(std::span<const double> ascending) const {
   std::vector<Threshold> at;
-  std::vector<double> in_frame;
   at.reserve(ascending.size());
-  in_frame.reserve(ascending.size());
-  for (const double distance : ascending) {
+  for (const double distance : ascending)
     at.push_back(threshold_at(frame_, displacement_, distance));
-    in_frame.push_back(frame_.to_frame(distance));
-  }
   std::vector<Enclosure> shares = vkh::shares_within(cells_, areas_, at);
-  const std::vector<double> estimates = estimates_.shares_within(in_frame);
   for (size_t i = 0; i < shares.size(); ++i) {
     // By the threshold, which displacement moves, only nearly all area may be within the largest.
     if (ascending[i] >= largest_) shares[i] = {1, 1};
-    shares[i].estimate = std::clamp(estimates[i], shares[i].lower, shares[i].upper);
+    shares[i].estimate = shares[i].lower + (shares[i].upper - shares[i].lower) / 2;
   }
   return shares;
 }

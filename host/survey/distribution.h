@@ -5,18 +5,17 @@
 #include <utility>
 #include <vector>
 
-#include "host/survey/estimate.h"
+#include "host/survey/cell_store.h"
+#include "host/survey/statistics.h"
 
 namespace vkh {
 
-/// Keeps the cells: 120 bytes for each. It refers to the mesh A of the pair, which must outlive
+/// Keeps the cells: 88 bytes for each. It refers to the mesh A of the pair, which must outlive
 /// it.
 class Distribution {
  public:
-  /// A has an area. `largest`: no distance is above it, in the files' units. `served` and
-  /// `goes_on`: as for Estimates; without `served` all shares_within() have estimates as good.
-  Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest,
-               std::vector<Threshold> served, const GoesOn& goes_on);
+  /// A has an area. `largest`: no distance is above it, in the files' units.
+  Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest);
   Distribution(const Distribution&) = delete;
   Distribution& operator=(const Distribution&) = delete;
 
@@ -24,10 +23,9 @@ class Distribution {
   /// Gives the cells to a survey that goes on with them: this is of no use any more.
   CellStore take_cells() { return std::move(cells_); }
   const Areas& areas() const { return areas_; }
-  const Estimates& estimates() const { return estimates_; }
 
   /// Returns the share of A's area within each of some distances, which are in the files' units and
-  /// ascend. Each has an estimate.
+  /// ascend. Each has its middle as an estimate.
   std::vector<Enclosure> shares_within(std::span<const double> ascending) const;
   /// Returns the area that is undecided at both ends of an interval, in the files' units.
   double undecided_area(const Enclosure& at) const;
@@ -42,7 +40,6 @@ class Distribution {
  private:
   CellStore cells_;
   const Areas areas_;
-  const Estimates estimates_;  // of the two before it
   const Frame frame_;
   const double displacement_;  // in the frame
   const double largest_;

@@ -157,14 +157,6 @@ class CellEstimator {
     return false;
   }
 
-  // An estimate from the bounds alone.
-  static CellEstimate of_bounds(const gpu::CellBounds& b) {
-    MeasuredCell unmeasured;
-    unmeasured.middle = std::numeric_limits<double>::infinity();
-    unmeasured.corners.fill(unmeasured.middle);
-    return of(unmeasured, b);
-  }
-
   // Weights of 1/12 for each corner and 3/4 for the centroid make the mean of a quadratic function
   // over a triangle.
   static CellEstimate of(const MeasuredCell& cell, const gpu::CellBounds& b) {
@@ -172,21 +164,17 @@ class CellEstimator {
     const std::array<float, 3> lower{b.lower_a, b.lower_b, b.lower_c};
     const std::array<float, 3> upper{b.upper_a, b.upper_b, b.upper_c};
     CellEstimate found;
-    double mean = 0, square = 0;
+    double mean = 0;
     for (size_t i = 0; i < cell.corners.size(); ++i) {
       const double d = between_bounds(cell.corners[i], static_cast<double>(lower[i]),
                                       std::min(static_cast<double>(upper[i]), highest));
       found.corners[i] = static_cast<float>(d);
       mean += d / 12;
-      square += d * d / 12;
     }
     const double least = mean_lower(b), most = static_cast<double>(b.mean_upper);
     const double middle = between_bounds(cell.middle, least, std::min(sum_of(upper) / 3, highest));
     found.middle = static_cast<float>(middle);
     found.mean = static_cast<float>(between_bounds(mean + 0.75 * middle, least, most));
-    found.square = static_cast<float>(
-        between_bounds(square + 0.75 * middle * middle, least * least,
-                       std::min(static_cast<double>(b.square_upper), highest * most)));
     return found;
   }
 
@@ -207,19 +195,14 @@ class CellEstimator {
   const bool are_points_;
 };
 
-// Estimates all cells, those that do not matter from their bounds, and the others from the faces
-// that the bounds name. Returns those that may not name the closest faces.
-template <class Matters>
+// Estimates all cells from the faces that their bounds name. Returns those that may not name the
+// closest faces.
 std::vector<size_t> estimate_by_named(const CellEstimator& estimator, const CellStore& cells,
-                                      const Matters& matters, std::vector<CellEstimate>& found) {
+                                      std::vector<CellEstimate>& found) {
   std::vector<std::vector<size_t>> coarse(block_count(cells.count()));
   for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const gpu::CellBounds& bounds = cells.bounds(i);
-      if (!matters(i)) {
-        found[i] = CellEstimator::of_bounds(bounds);
-        continue;
-      }
       const MeasuredCell cell = estimator.measured(cells.cell(i), estimator.named_by(bounds));
       found[i] = CellEstimator::of(cell, bounds);
       if (estimator.may_miss_faces(cell, bounds)) coarse[block].push_back(i);
@@ -230,163 +213,18 @@ std::vector<size_t> estimate_by_named(const CellEstimator& estimator, const Cell
   return all;
 }
 
-// Adds up what `add(sums, cell)` adds for each cell: in blocks, and then block by block, so that
-// the bits are the same on any number of threads.
-template <class Add>
-std::vector<double> sums_over(size_t cells, size_t count, const Add& add) {
-  std::vector<std::vector<double>> blocks(block_count(cells));
-  for_each_block(cells, [&](size_t block, size_t begin, size_t end) {
-    std::vector<double> sums(count, 0.0);
-    for (size_t i = begin; i < end; ++i) add(sums, i);
-    blocks[block] = std::move(sums);
-  });
-  std::vector<double> all(count, 0.0);
-  for (const std::vector<double>& sums : blocks) {
-    for (size_t k = 0; k < count; ++k) all[k] += sums[k];
-  }
-  return all;
-}
-
-// Adds a part of a cell to the sums of areas within distances: those that cut it get what is
-// within; the first one that it is all within, at its place behind them, all of it.
-void within_part(const std::array<float, 3>& corners, double area,
-                 std::span<const double> ascending, std::vector<double>& sums) {
-  const auto [least, most] = std::minmax({corners[0], corners[1], corners[2]});
-  const size_t count = ascending.size();
-  auto k = static_cast<size_t>(
-      std::lower_bound(ascending.begin(), ascending.end(), static_cast<double>(least)) -
-      ascending.begin());
-  for (; k < count && ascending[k] < static_cast<double>(most); ++k)
-    sums[k] += area * share_within(corners[0], corners[1], corners[2], ascending[k]);
-  sums[count + k] += area;
-}
-
 }  // namespace
 
-Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const Areas& areas,
-                     std::vector<Threshold> served, const GoesOn& goes_on)
-    : cells_(cells), areas_(areas), served_(std::move(served)), of_cell_(cells.count()) {
+Estimates::Estimates(const SurveyedPair& pair, const CellStore& cells, const GoesOn& goes_on)
+    : of_cell_(cells.count()) {
   const CellEstimator estimator(pair);
-  const auto matter = [this](size_t i) { return matters(i); };
-  const std::vector<size_t> coarse = estimate_by_named(estimator, cells, matter, of_cell_);
+  const std::vector<size_t> coarse = estimate_by_named(estimator, cells, of_cell_);
   if (coarse.empty()) return;
   const AllFaces faces = estimator.all_faces();
   each_while(coarse.size(), goes_on, [&](size_t k) {
     const size_t i = coarse[k];
     of_cell_[i] = CellEstimator::of(estimator.measured(cells.cell(i), faces), cells.bounds(i));
   });
-}
-
-bool Estimates::matters(size_t cell) const {
-  return serve_all() || std::any_of(served_.begin(), served_.end(), [&](const Threshold& at) {
-           const Enclosure share = share_within(cells_, cell, at);
-           return share.lower < share.upper;
-         });
-}
-
-double Estimates::area_of(size_t cell) const {
-  return cells_.share(cell) * areas_.of_face[cells_.face(cell)];
-}
-
-double Estimates::mean() const {
-  const std::vector<double> sum =
-      sums_over(of_cell_.size(), 1, [&](std::vector<double>& sums, size_t i) {
-        sums[0] += area_of(i) * static_cast<double>(of_cell_[i].mean);
-      });
-  return sum[0] / areas_.whole;
-}
-
-double Estimates::rms() const {
-  const std::vector<double> sum =
-      sums_over(of_cell_.size(), 1, [&](std::vector<double>& sums, size_t i) {
-        sums[0] += area_of(i) * static_cast<double>(of_cell_[i].square);
-      });
-  return std::sqrt(sum[0] / areas_.whole);
-}
-
-std::vector<double> Estimates::shares_within(std::span<const double> ascending) const {
-  const size_t count = ascending.size();
-  std::vector<double> sums =
-      sums_over(of_cell_.size(), 2 * count + 1, [&](std::vector<double>& add, size_t i) {
-        const CellEstimate& e = of_cell_[i];
-        for (size_t corner = 0; corner < e.corners.size(); ++corner)
-          within_part({e.corners[corner], e.corners[(corner + 1) % 3], e.middle}, area_of(i) / 3,
-                      ascending, add);
-      });
-  double whole = 0;
-  for (size_t k = 0; k < count; ++k) {
-    whole += sums[count + k];
-    sums[k] = std::clamp((sums[k] + whole) / areas_.whole, 0.0, 1.0);
-  }
-  sums.resize(count);
-  return sums;
-}
-
-std::vector<double> Estimates::percentiles(std::span<const double> shares,
-                                           std::span<const Enclosure> known) const {
-  constexpr size_t kCuts = 63;
-  constexpr int kPasses = 3;  // 18 bits of an enclosure
-  std::vector<Enclosure> at(known.begin(), known.end());
-  for (int pass = 0; pass < kPasses; ++pass) {
-    std::vector<double> cuts;
-    for (const Enclosure& e : at) {
-      for (size_t k = 1; k <= kCuts; ++k)
-        cuts.push_back(e.lower + (e.upper - e.lower) * static_cast<double>(k) / (kCuts + 1));
-    }
-    std::sort(cuts.begin(), cuts.end());
-    const std::vector<double> within = shares_within(cuts);
-    for (size_t p = 0; p < at.size(); ++p) {
-      Enclosure& e = at[p];
-      const auto first = std::lower_bound(within.begin(), within.end(), shares[p]);
-      const auto k = first - within.begin();
-      if (k < std::ssize(cuts))
-        e.upper = std::clamp(cuts[static_cast<size_t>(k)], e.lower, e.upper);
-      if (k > 0) e.lower = std::clamp(cuts[static_cast<size_t>(k - 1)], e.lower, e.upper);
-    }
-  }
-  std::vector<double> found;
-  found.reserve(at.size());
-  for (const Enclosure& e : at) found.push_back((e.lower + e.upper) / 2);
-  return found;
-}
-
-namespace {
-
-void put(double estimate, Enclosure& e) {
-  if (std::isfinite(estimate)) e.estimate = std::clamp(estimate, e.lower, e.upper);
-}
-
-double length_in_files(const SurveyedPair& pair, double length) {
-  return (pair.frame.length_down(length) + pair.frame.length_up(length)) / 2;
-}
-
-void put_shares(const Estimates& estimates, const SurveyedPair& pair,
-                std::vector<AreaWithin>& shares) {
-  std::vector<size_t> order(shares.size());
-  std::iota(order.begin(), order.end(), size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](size_t x, size_t y) { return shares[x].distance < shares[y].distance; });
-  std::vector<double> ascending;
-  ascending.reserve(order.size());
-  for (const size_t i : order) ascending.push_back(pair.frame.to_frame(shares[i].distance));
-  const std::vector<double> within = estimates.shares_within(ascending);
-  for (size_t k = 0; k < order.size(); ++k) put(within[k], shares[order[k]].share);
-}
-
-}  // namespace
-
-void add_estimates(const Estimates& estimates, const SurveyedPair& pair,
-                   std::span<const Enclosure> percentiles, Statistics& s) {
-  put_shares(estimates, pair, s.bands);
-  if (!estimates.serve_all()) return;
-  put_shares(estimates, pair, s.curve);
-  put(length_in_files(pair, estimates.mean()), s.mean);
-  put(length_in_files(pair, estimates.rms()), s.rms);
-  std::vector<double> shares;
-  for (const Percentile& p : s.percentiles) shares.push_back(p.share);
-  const std::vector<double> at = estimates.percentiles(shares, percentiles);
-  for (size_t i = 0; i < at.size(); ++i)
-    put(length_in_files(pair, at[i]), s.percentiles[i].distance);
 }
 
 }  // namespace vkh

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/base/parallel.h"
-#include "host/survey/estimate.h"
+#include "host/survey/cell_store.h"
 #include "host/survey/statistics.h"
 #include "vkhausdorff/survey.h"
 
@@ -79,27 +79,18 @@ double largest_upper(const CellStore& store, const SurveyedPair& pair);
 /// floats leave.
 double least_width(const SurveyedPair& pair);
 
-/// The goals one after the other: faces, then shares of area, then the mean and the root mean
-/// square, then percentiles. They keep in `known` what is known of the percentiles, in the frame,
-/// and start from it. All arguments must outlive them.
-std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair,
-                           const Areas& areas, std::vector<Enclosure>& known);
-
-/// Returns the thresholds of the bands where their shares are all that a survey has goals for, and
-/// all that it draws: none otherwise.
-std::vector<Threshold> only_shares_of(const SurveyOptions& options, const SurveyedPair& pair);
+/// The goals one after the other: faces, by verdicts and by their bounds; and points of A, each of
+/// which is measured where a figure needs it. Figures of a surface have none here: wave_survey.h.
+std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair);
 
 /// The surface that figures are of.
 struct SurveyedArea {
   const CellStore& store;
   const Areas& areas;
-  const std::vector<Enclosure>& known;  ///< what goals_of() kept
+  const std::vector<Enclosure>& known;  ///< of the percentiles, in the frame; or empty
 };
 /// Makes figures those of the part of A that is within options.max_distance.
 void keep_within(const SurveyedArea& surface, const SurveyedPair& pair,
                  const SurveyOptions& options, Statistics& s);
-/// Returns nothing if A has no area.
-std::optional<Statistics> statistics_of(const SurveyedArea& surface, const SurveyedPair& pair,
-                                        const SurveyOptions& options, const Estimates& estimates);
 
 }  // namespace vkh

@@ -202,7 +202,7 @@ MetricsWithin within_of(const Enclosure& weight, const AreaWithin& a, const Area
 Metric pooled_metric(const PooledPart& a, const PooledPart& b, double share,
                      const Enclosure& between, const Goals& goals) {
   Enclosure pooled = pooled_percentile(a, b, share, between);
-  pooled.estimate = likely_pooled_percentile(a, b, share, pooled);
+  pooled.estimate = pooled.lower + (pooled.upper - pooled.lower) / 2;
   return goals.length(pooled, false, is_pooled_jump(a, b, pooled, goals.of_length(pooled.lower)));
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/mesh/triangle_tree.h"
+#include "host/survey/estimate.h"
 #include "host/survey/goals.h"
 #include "host/survey/measured.h"
 #include "host/survey/stoppable.h"

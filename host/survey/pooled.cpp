@@ -56,20 +56,6 @@ Enclosure pooled_percentile(const PooledPart& a, const PooledPart& b, double sha
   return e;
 }
 
-double likely_pooled_percentile(const PooledPart& a, const PooledPart& b, double share,
-                                Enclosure e) {
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const std::vector<double> cuts = cuts_of(e);
-    const std::vector<Enclosure> within = pooled_shares(a, b, cuts);
-    for (size_t i = 0; i < cuts.size(); ++i) {
-      const bool is_reached = within[i].estimate.value_or(0) >= share;
-      double& end = is_reached ? e.upper : e.lower;
-      end = is_reached ? std::min(end, cuts[i]) : std::max(end, cuts[i]);
-    }
-  }
-  return (e.lower + e.upper) / 2;
-}
-
 // The same margins as those of one surface's percentile (goals.cpp).
 bool is_pooled_jump(const PooledPart& a, const PooledPart& b, const Enclosure& e, double enough) {
   constexpr double kNearlyNone = 1e-5;

@@ -23,9 +23,6 @@ PooledPart part_of(const Distribution& distribution);
 /// The least distance that `share` of both surfaces' area is within. `known` encloses it.
 Enclosure pooled_percentile(const PooledPart& a, const PooledPart& b, double share,
                             const Enclosure& known);
-/// Estimates it within `e`: all shares have estimates.
-double likely_pooled_percentile(const PooledPart& a, const PooledPart& b, double share,
-                                Enclosure e);
 
 /// Whether an enclosure of that percentile that is wider than `enough` stays so at any effort:
 /// nearly no area lies between its ends.

@@ -305,6 +305,13 @@ Enclosure share_within(const CellStore& cells, size_t i, const Threshold& at) {
   return {share(surely_within({cells}, i), at.down), share(perhaps_within({cells}, i), at.up)};
 }
 
+float least_float_above(double x) {
+  const auto near = static_cast<float>(x);
+  return static_cast<double>(near) < x
+             ? std::nextafter(near, std::numeric_limits<float>::infinity())
+             : near;
+}
+
 // Scaling by a power of two rounds subnormal results alone, which are far below `displacement`.
 Threshold threshold_at(const Frame& frame, double displacement, double distance) {
   const double d = frame.to_frame(distance);
@@ -597,13 +604,6 @@ struct Sums {
     largest = std::max(largest, other.largest);
   }
 };
-
-float least_float_above(double x) {
-  const auto near = static_cast<float>(x);
-  return static_cast<double>(near) < x
-             ? std::nextafter(near, std::numeric_limits<float>::infinity())
-             : near;
-}
 
 // Bounds the integrals over the part of a cell that is within `most`: all of a cell that surely is,
 // nothing of one that surely is not. Of one that may be, nothing is known from below, and from

@@ -30,6 +30,8 @@ Areas areas_of(const Mesh& a);
 /// at most `t`.
 double share_within(float a, float b, float c, double t);
 
+float least_float_above(double x);
+
 /// A distance in the frame that is not known better than that.
 struct Threshold {
   double down, up;

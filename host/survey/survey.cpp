@@ -1,10 +1,9 @@
 #include "vkhausdorff/survey.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "host/base/parallel.h"
 #include "host/survey/distribution.h"
@@ -14,7 +13,9 @@
 #include "host/survey/point_distances.h"
 #include "host/survey/pooled.h"
 #include "host/survey/signed_figures.h"
+#include "host/survey/survey_meter.h"
 #include "host/survey/survey_with.h"
+#include "host/survey/wave_survey.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -28,26 +29,14 @@ void check_shares(const std::vector<double>& shares) {
   }
 }
 
-using Clock = std::chrono::steady_clock;
-
-double ms_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 bool finds_sides(const SurveyOptions& options) { return options.is_signed || options.sided; }
 
 // Bounds cells in batches, until time or the caller ends it. How large batches are decides neither
 // the cells' numbers nor their bounds.
 class Bounding {
  public:
-  Bounding(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options,
-           bool keeps_time_for_sides)
-      : pair_(pair),
-        bound_(bound),
-        options_(options),
-        ms_of_cells_(1000 * options.time_limit_s * (keeps_time_for_sides ? kPartOfCells : 1)),
-        effort_(options.effort.value_or(default_effort(pair.on_cpu))),
-        batch_(pair.on_cpu ? 1024 : 65536) {}
+  Bounding(const SurveyedPair& pair, const BoundCells& bound, SurveyMeter& meter)
+      : pair_(pair), bound_(bound), meter_(meter) {}
 
   // Bounds whole faces.
   void faces(CellStore& store) {
@@ -76,7 +65,7 @@ class Bounding {
       for (const size_t i : which_) asked.push_back(store.cell(i));
       bound({.cells = asked, .first = 0, .bounds = bounds});
       store.narrow(which_, bounds);
-      spent_ += bounds.size();
+      meter_.spend(bounds.size());
     });
   }
 
@@ -91,78 +80,36 @@ class Bounding {
       });
       store.narrow(some, bounds);
       store.close(some);
-      spent_ += 2 * some.size();
+      meter_.spend(2 * some.size());
     });
   }
   bool are_points() const { return pair_.a.are_points; }
 
-  // Whether the caller lets the survey go on, however long it took.
-  bool is_wanted() {
-    if (ended_ != SurveyEnd::kCancelled && options_.goes_on && !options_.goes_on(bounded_))
-      ended_ = SurveyEnd::kCancelled;
-    return ended_ != SurveyEnd::kCancelled;
-  }
-  // The number of cells that may still be split.
-  size_t splits_left() const { return (effort_ - spent_) / 2; }
-  size_t effort() const { return effort_; }
-
-  // Asks the caller first: a survey that was cancelled is none that time ended.
-  bool goes_on() { return goes_on(ended_, ms_of_cells_); }
-  // The same for the work on sides, which has some time of its own.
-  bool sides_go_on() { return goes_on(sides_ended_, 1000 * options_.time_limit_s); }
-  // The reason why `goes_on` was false; before it was, kMet.
-  SurveyEnd ended() const { return std::max(ended_, sides_ended_); }
-  double ms() const { return ms_since(start_); }
-  size_t bounded() const { return bounded_; }
-  double device_ms() const { return device_ms_; }
+  SurveyMeter& meter() { return meter_; }
 
  private:
-  bool goes_on(SurveyEnd& ended, double limit_ms) {
-    if (ended != SurveyEnd::kMet) return false;
-    if (!is_wanted()) {
-      ended = SurveyEnd::kCancelled;
-    } else if (ms() > limit_ms) {
-      ended = SurveyEnd::kTime;
-    }
-    return ended == SurveyEnd::kMet;
-  }
-
   void bound(const CellBatch& batch) {
-    const Clock::time_point start = Clock::now();
-    bound_(batch);
-    device_ms_ += ms_since(start);
+    meter_.on_device([&] { bound_(batch); });
   }
 
-  template <class Bound>
-  void all(size_t count, const Bound& bound) {
-    for (size_t first = 0; first < count && (bounded_ == 0 || goes_on());) {
-      std::vector<gpu::CellBounds> bounds(std::min(batch_, count - first));
-      const Clock::time_point start = Clock::now();
-      bound(first, bounds);
+  template <class Work>
+  void all(size_t count, const Work& work) {
+    for (size_t first = 0; first < count && (meter_.bounded() == 0 || meter_.goes_on());) {
+      std::vector<gpu::CellBounds> bounds(std::min(meter_.batch(), count - first));
+      const double start = meter_.ms();
+      work(first, bounds);
       first += bounds.size();
-      bounded_ += bounds.size();
-      const double per_cell = ms_since(start) / static_cast<double>(bounds.size());
-      const auto fits = static_cast<size_t>(options_.submission_ms / per_cell) / 2 * 2;
-      batch_ = std::clamp(fits, kLeastBatch, std::min(4 * batch_, kMostBatch));
+      meter_.note_bounded(bounds.size());
+      meter_.note_batch(bounds.size(), meter_.ms() - start);
     }
   }
 
-  static constexpr double kPartOfCells = 0.7;
-  static constexpr size_t kLeastBatch = 64,  // even, as all are: halves come in twos
-      kMostBatch = size_t{1} << 20, kPointsOfThread = 256;
+  static constexpr size_t kPointsOfThread = 256;
   const SurveyedPair& pair_;
   const BoundCells& bound_;
-  const SurveyOptions& options_;
-  const Clock::time_point start_ = Clock::now();
-  const double ms_of_cells_;
-  const size_t effort_;
-  size_t spent_ = 0;
-  size_t batch_;
-  size_t bounded_ = 0;
-  double device_ms_ = 0;
+  SurveyMeter& meter_;
   std::vector<size_t> which_;  // cells of a batch
   std::optional<PointDistances> distances_;
-  SurveyEnd ended_ = SurveyEnd::kMet, sides_ended_ = SurveyEnd::kMet;
 };
 
 constexpr size_t kFewestSplits = 2048;  // for a pass: the host looks at all cells between two
@@ -231,17 +178,21 @@ std::vector<size_t> chosen_points(Scores& scores, size_t most) {
   return points;
 }
 
+// The number of cells that may still be halved.
+size_t splits_left(const SurveyMeter& meter) { return meter.effort_left() / 2; }
+
 // Refines until the goal is met, or cannot be, by splits of `budget` cells.
 SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal, size_t budget) {
-  const size_t kept = bounding.splits_left() - budget;
+  SurveyMeter& meter = bounding.meter();
+  const size_t kept = splits_left(meter) - budget;
   for (;;) {
     Scores scores = goal(store);
     if (scores.is_met) return SurveyEnd::kMet;
     if (scores.cells.empty()) return SurveyEnd::kBits;
     const size_t most =
-        std::min(std::max(store.count() / 2, kFewestSplits), bounding.splits_left() - kept);
+        std::min(std::max(store.count() / 2, kFewestSplits), splits_left(meter) - kept);
     if (most == 0) return SurveyEnd::kEffort;
-    if (!bounding.goes_on()) return bounding.ended();
+    if (!meter.goes_on()) return meter.ended();
     if (bounding.are_points()) {
       bounding.points(store, chosen_points(scores, most));
     } else {
@@ -252,25 +203,26 @@ SurveyEnd refine(CellStore& store, Bounding& bounding, const Goal& goal, size_t 
 
 // Refines for one goal after the other.
 SurveyEnd refine_all(CellStore& store, Bounding& bounding, const std::vector<Goal>& goals) {
-  SurveyEnd ended = bounding.ended();  // before all faces are bounded, perhaps
+  SurveyEnd ended = bounding.meter().ended();  // before all faces are bounded, perhaps
   for (const Goal& goal : goals)
-    ended = std::max(ended, refine(store, bounding, goal, bounding.splits_left()));
+    ended = std::max(ended, refine(store, bounding, goal, splits_left(bounding.meter())));
   return ended;
 }
 
 // A picture may take half of the effort before figures, and what they leave after them.
 SurveyEnd refine_map(CellStore& store, Bounding& bounding, const std::optional<Goal>& map,
                      bool is_last) {
-  if (!map) return bounding.ended();
-  return refine(store, bounding, *map, bounding.splits_left() / (is_last ? 1 : 2));
+  if (!map) return bounding.meter().ended();
+  return refine(store, bounding, *map, splits_left(bounding.meter()) / (is_last ? 1 : 2));
 }
 
-Field field_of(const CellStore& store, const SurveyedPair& pair) {
-  const std::vector<float> highest = store.highest_of_faces();
+// `reached` and `highest`: of each face, in the frame.
+Field field_of(std::span<const float> reached, std::span<const float> highest,
+               const SurveyedPair& pair) {
   Field field;
   for (size_t f = 0; f < highest.size(); ++f) {
-    const auto reached = static_cast<double>(store.reached(static_cast<uint32_t>(f)));
-    const Enclosure e = in_files(pair, {reached, static_cast<double>(highest[f])});
+    const Enclosure e =
+        in_files(pair, {static_cast<double>(reached[f]), static_cast<double>(highest[f])});
     field.lower.push_back(std::min(e.lower, e.upper));
     field.upper.push_back(e.upper);
   }
@@ -279,11 +231,11 @@ Field field_of(const CellStore& store, const SurveyedPair& pair) {
 
 // Returns nothing unless sides are asked for.
 std::optional<SidedCells> sided_cells(const SurveyedPair& pair, const SurveyOptions& options,
-                                      Bounding& bounding) {
+                                      SurveyMeter& meter) {
   if (!finds_sides(options)) return {};
   refuse_any_triangulation(pair.a, pair.b, "sides");
   refuse_conflicts(pair.b);
-  return std::optional<SidedCells>(std::in_place, pair, [&] { return bounding.sides_go_on(); });
+  return std::optional<SidedCells>(std::in_place, pair, [&] { return meter.sides_go_on(); });
 }
 
 }  // namespace
@@ -351,6 +303,142 @@ SurveyResult survey_mesh(Solver& solver, const PairView& pair, const SurveyOptio
   return result;
 }
 
+namespace {
+
+// Whether something besides the figures of a surface is asked for, which cells are split for, too.
+bool has_other_goals(const SurveyOptions& options) {
+  return options.faces || options.map || options.normals_within || finds_sides(options);
+}
+
+// Whether the host must hold the cells.
+bool needs_store(const SurveyOptions& options) {
+  return has_other_goals(options) || options.max_distance || options.keeps_distribution;
+}
+
+// One survey: the figures of a surface by waves, and the rest on cells that the host holds.
+class Surveying {
+ public:
+  Surveying(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options)
+      : pair_(pair),
+        options_(options),
+        has_cheap_sides_(may_have_cheap_sides(options, pair)),
+        meter_(options, pair.on_cpu, finds_sides(options) || has_cheap_sides_),
+        bounding_(pair, bound, meter_),
+        areas_(areas_of(pair.a)) {}
+
+  void run(SurveyResult& result) {
+    std::optional<SidedCells> sided = sided_cells(pair_, options_, meter_);
+    result.faces = options_.faces;
+    if (goes_by_waves()) {
+      WaveSurvey waves(pair_, areas_, meter_, farthest());
+      const size_t effort = meter_.effort() / (has_other_goals(options_) ? 2 : 1);
+      result.ended = waves.refine(options_, effort);
+      known_ = waves.known();
+      if (needs_store(options_)) {
+        go_on(waves.store(), sided, result);
+      } else {
+        add_figures(waves, result);
+      }
+    } else {
+      result.ended = SurveyEnd::kMet;
+      go_on(first_store(), sided, result);
+    }
+    if (options_.statistics && !result.statistics)
+      result.ended = std::max(result.ended, SurveyEnd::kBits);
+    result.effort = meter_.effort();
+    result.bounded = meter_.bounded();
+    result.device_ms = meter_.device_ms();
+    result.ms = meter_.ms();
+  }
+
+ private:
+  bool goes_by_waves() const {
+    return pair_.cells != nullptr && options_.statistics && !pair_.a.are_points &&
+           !options_.pooled && areas_.is_positive();
+  }
+
+  // No distance is above it, in the frame.
+  float farthest() const {
+    const double most = pair_.frame.to_frame(pair_.farthest) * (1 + 1e-6) + pair_.displacement;
+    return static_cast<float>(std::min(most * (1 + 1e-6), 1e38));
+  }
+
+  CellStore first_store() {
+    if (options_.pooled) return options_.pooled->cells->take_cells();
+    CellStore store(pair_.a, farthest());
+    bounding_.faces(store);
+    return store;
+  }
+
+  void add_figures(WaveSurvey& waves, SurveyResult& result) {
+    const std::span<const float> faces = waves.faces();
+    const size_t count = faces.size() / 2;
+    result.field = field_of(faces.first(count), faces.last(count), pair_);
+    result.cells = waves.count();
+    result.statistics = statistics_of(waves, areas_, known_, pair_, options_);
+    if (result.statistics) add_middles(has_only_shares(options_), *result.statistics);
+  }
+
+  void go_on(CellStore store, std::optional<SidedCells>& sided, SurveyResult& result) {
+    std::vector<Goal> goals = options_.pooled
+                                  ? std::vector<Goal>{pooled_goal(*options_.pooled, pair_, areas_)}
+                                  : goals_of(options_, pair_);
+    if (sided) add_signed_goals(*sided, options_, areas_, goals);
+    std::optional<NormalCells> normals;
+    if (options_.normals_within && options_.statistics && !pair_.a.are_points &&
+        !pair_.b.are_points)
+      normals.emplace(pair_, options_, areas_, [&] { return meter_.goes_on(); });
+    if (normals && areas_.is_positive() && !options_.pooled) normals->add_goals(goals);
+    const std::optional<Goal> map = map_goal(options_, pair_, areas_);
+    refine_map(store, bounding_, map, false);
+    result.ended = std::max(result.ended, refine_all(store, bounding_, goals));
+    result.ended = std::max(result.ended, refine_map(store, bounding_, map, true));
+    result.field = field_of(store.reached_of_faces(), store.highest_of_faces(), pair_);
+    if (sided) result.sides = sided->figures({store, areas_, known_}, options_);
+    result.ended = std::max(result.ended, meter_.ended());
+    result.cells = store.count();
+    if ((options_.statistics || options_.map) && areas_.is_positive())
+      add_figures(std::move(store), sided, normals, result);
+  }
+
+  void add_figures(CellStore store, std::optional<SidedCells>& sided,
+                   std::optional<NormalCells>& normals, SurveyResult& result) {
+    const double largest = largest_upper(store, pair_);
+    const auto whole = std::make_shared<Distribution>(pair_, std::move(store), areas_, largest);
+    const CellStore& cells = whole->cells();
+    const SurveyedArea surface{cells, areas_, known_};
+    std::optional<Estimates> estimates;
+    if (options_.map || normals)
+      estimates.emplace(pair_, cells, [&] { return meter_.is_wanted(); });
+    result.ended = std::max(result.ended, meter_.ended());
+    if (options_.statistics) {
+      StoredDistances distances(cells, areas_);
+      result.statistics = statistics_of(distances, areas_, known_, pair_, options_);
+    }
+    if (result.statistics) {
+      if (options_.max_distance) keep_within(surface, pair_, options_, *result.statistics);
+      add_middles(has_only_shares(options_), *result.statistics);
+      if (normals) normals->add_figures(cells, *estimates, *result.statistics);
+    }
+    if (options_.map) result.map = map_of(surface, pair_, options_, *estimates);
+    if (result.map && sided) add_sides(sided->of(cells), *result.map);
+    if (result.map && has_cheap_sides_)
+      add_cheap_sides(
+          pair_, cells, [&] { return meter_.sides_go_on(); }, *result.map);
+    if (options_.keeps_distribution && result.statistics) result.distribution = whole;
+  }
+
+  const SurveyedPair& pair_;
+  const SurveyOptions& options_;
+  const bool has_cheap_sides_;
+  SurveyMeter meter_;
+  Bounding bounding_;
+  const Areas areas_;
+  std::vector<Enclosure> known_;  // of the percentiles, in the frame
+};
+
+}  // namespace
+
 Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
   return [&options, &result](const SurveyedPair& on_device, const BoundCells& bound) {
     if (options.statistics)
@@ -358,58 +446,7 @@ Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
     check_shares(options.percentiles);
     SurveyedPair pair = on_device;
     pair.farthest = std::min(pair.farthest, options.upper);
-    const bool is_cheap = may_have_cheap_sides(options, pair);
-    Bounding bounding(pair, bound, options, finds_sides(options) || is_cheap);
-    std::optional<SidedCells> sided = sided_cells(pair, options, bounding);
-    const double farthest = pair.frame.to_frame(pair.farthest) * (1 + 1e-6) + pair.displacement;
-    CellStore store =
-        options.pooled
-            ? options.pooled->cells->take_cells()
-            : CellStore(pair.a, static_cast<float>(std::min(farthest * (1 + 1e-6), 1e38)));
-    if (!options.pooled) bounding.faces(store);
-    Areas areas = areas_of(pair.a);
-    std::vector<Enclosure> percentiles;
-    std::vector<Goal> goals = options.pooled
-                                  ? std::vector<Goal>{pooled_goal(*options.pooled, pair, areas)}
-                                  : goals_of(options, pair, areas, percentiles);
-    if (sided) add_signed_goals(*sided, options, areas, goals);
-    std::optional<NormalCells> normals;
-    if (options.normals_within && options.statistics && !pair.a.are_points && !pair.b.are_points)
-      normals.emplace(pair, options, areas, [&] { return bounding.goes_on(); });
-    if (normals && areas.is_positive() && !options.pooled) normals->add_goals(goals);
-    const std::optional<Goal> map = map_goal(options, pair, areas);
-    refine_map(store, bounding, map, false);
-    result.ended = refine_all(store, bounding, goals);
-    result.ended = std::max(result.ended, refine_map(store, bounding, map, true));
-    result.field = field_of(store, pair);
-    result.faces = options.faces;
-    if (sided) result.sides = sided->figures({store, areas, percentiles}, options);
-    result.ended = std::max(result.ended, bounding.ended());
-    result.cells = store.count();
-    if ((options.statistics || options.map) && areas.is_positive()) {
-      const double largest = largest_upper(store, pair);
-      const auto whole = std::make_shared<Distribution>(pair, std::move(store), areas, largest,
-                                                        only_shares_of(options, pair),
-                                                        [&] { return bounding.is_wanted(); });
-      result.ended = std::max(result.ended, bounding.ended());
-      const SurveyedArea surface{whole->cells(), whole->areas(), percentiles};
-      if (options.statistics)
-        result.statistics = statistics_of(surface, pair, options, whole->estimates());
-      if (normals && result.statistics)
-        normals->add_figures(whole->cells(), whole->estimates(), *result.statistics);
-      if (options.map) result.map = map_of(surface, pair, options, whole->estimates());
-      if (result.map && sided) add_sides(sided->of(whole->cells()), *result.map);
-      if (result.map && is_cheap)
-        add_cheap_sides(
-            pair, whole->cells(), [&] { return bounding.sides_go_on(); }, *result.map);
-      if (options.keeps_distribution && result.statistics) result.distribution = whole;
-    }
-    if (options.statistics && !result.statistics)
-      result.ended = std::max(result.ended, SurveyEnd::kBits);
-    result.effort = bounding.effort();
-    result.bounded = bounding.bounded();
-    result.device_ms = bounding.device_ms();
-    result.ms = bounding.ms();
+    Surveying(pair, bound, options).run(result);
   };
 }
 

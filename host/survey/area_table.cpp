@@ -1,0 +1,126 @@
+#include "host/survey/area_table.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+namespace vkh {
+namespace {
+
+// Covers an integer of 64 bits as a double, which is off by 2^-53, and the few sums, products and
+// quotients of one sign that it goes through.
+constexpr double kLess = 1 - 0x1p-49, kMore = 1 + 0x1p-49;
+
+uint64_t whole_of(const gpu::Wide& x) { return uint64_t{x.high} << 32 | x.low; }
+
+// The areas within each edge: those of cells that are all within it or one before, and of those
+// that it cuts.
+std::vector<double> areas_within(const gpu::SurveyTable& table, uint32_t whole, uint32_t part,
+                                 size_t edges) {
+  std::vector<double> areas;
+  uint64_t all = 0;
+  for (size_t k = 0; k < edges; ++k) {
+    all += whole_of(table.sums[whole + k]);
+    areas.push_back(static_cast<double>(all + whole_of(table.sums[part + k])));
+  }
+  return areas;
+}
+
+template <class End>
+std::vector<size_t> order_of(std::span<const Threshold> thresholds, const End& end) {
+  std::vector<size_t> order(thresholds.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t x, size_t y) { return end(thresholds[x]) < end(thresholds[y]); });
+  return order;
+}
+
+}  // namespace
+
+// An area is rounded down to an integer, and so loses less than one.
+AreaWeights weights_of(const Areas& areas) {
+  constexpr int kBits = 60;
+  const int scale = kBits - std::ilogb(areas.whole);
+  AreaWeights weights;
+  weights.of_face.reserve(areas.of_face.size());
+  uint64_t whole = 0;
+  for (const double area : areas.of_face) {
+    weights.of_face.push_back(static_cast<uint64_t>(std::ldexp(area, scale)));
+    whole += weights.of_face.back();
+  }
+  weights.whole = static_cast<double>(whole);
+  weights.error = kMore * (std::ldexp(areas.error, scale) +
+                           static_cast<double>(areas.of_face.size()) + 0x1p-53 * weights.whole);
+  return weights;
+}
+
+TallyEdges edges_of(std::span<const Threshold> thresholds) {
+  TallyEdges all;
+  all.edges.resize(thresholds.size());
+  all.of.resize(thresholds.size());
+  const std::vector<size_t> downs = order_of(thresholds, [](const Threshold& t) { return t.down; });
+  const std::vector<size_t> ups = order_of(thresholds, [](const Threshold& t) { return t.up; });
+  for (size_t k = 0; k < thresholds.size(); ++k) {
+    all.edges[k].down = -least_float_above(-thresholds[downs[k]].down);
+    all.edges[k].up = least_float_above(thresholds[ups[k]].up);
+    all.of[downs[k]].down = all.of[ups[k]].up = k;
+  }
+  return all;
+}
+
+int tally_unit(float farthest) { return std::ilogb(farthest) + 1 + 127; }
+
+AreaTable::AreaTable(const gpu::SurveyTable& table, const TallyEdges& at,
+                     const AreaWeights& weights, int unit)
+    : table_(table),
+      at_(at),
+      weights_(weights),
+      unit_(std::ldexp(1.0, unit - 127)),
+      surely_(areas_within(table, gpu::kSurelyWhole, gpu::kSurelyPart, at.edges.size())),
+      perhaps_(areas_within(table, gpu::kPerhapsWhole, gpu::kPerhapsPart, at.edges.size())) {}
+
+double AreaTable::lowest() const {
+  return static_cast<double>(std::bit_cast<float>(~table_.not_lowest));
+}
+double AreaTable::highest() const {
+  return static_cast<double>(std::bit_cast<float>(table_.highest));
+}
+
+// Shares of all and of nothing are exact.
+Enclosure AreaTable::share(const TallyEdges::Places& at) const {
+  const auto& [of_face, whole, error] = weights_;
+  const double least = kLess * surely_[at.down] - error, most = kMore * perhaps_[at.up] + error;
+  Enclosure e{std::clamp(kLess * (least / (whole + error)), 0.0, 1.0),
+              std::clamp(kMore * (most / (whole - error)), 0.0, 1.0)};
+  if (static_cast<double>(at_.edges[at.down].down) >= highest()) e.lower = 1;
+  if (static_cast<double>(at_.edges[at.up].up) < lowest()) e.upper = 0;
+  return e;
+}
+
+std::vector<Enclosure> AreaTable::shares() const {
+  std::vector<Enclosure> all;
+  for (const TallyEdges::Places& at : at_.of) all.push_back(share(at));
+  return all;
+}
+
+// A mean in the sum's unit of values up to `largest`, which the areas' error weighs at most.
+double AreaTable::mean_down(uint32_t sum, double largest) const {
+  const double least =
+      kLess * static_cast<double>(whole_of(table_.sums[sum])) - kMore * weights_.error * largest;
+  return std::max(kLess * (least / (weights_.whole + weights_.error)), 0.0);
+}
+double AreaTable::mean_up(uint32_t sum, double largest) const {
+  const double most =
+      kMore * (static_cast<double>(whole_of(table_.sums[sum])) + weights_.error * largest);
+  return kMore * (most / (weights_.whole - weights_.error));
+}
+
+Moments AreaTable::moments() const {
+  const double largest = highest() / unit_, square = largest * largest;
+  return {{unit_ * mean_down(gpu::kMeanLower, largest), unit_ * mean_up(gpu::kMeanUpper, largest)},
+          {unit_ * kLess * std::sqrt(mean_down(gpu::kSquareLower, square)),
+           unit_ * kMore * std::sqrt(mean_up(gpu::kSquareUpper, square))}};
+}
+
+}  // namespace vkh

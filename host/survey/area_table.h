@@ -1,0 +1,61 @@
+// What a tally of a survey's cells proves of A: its integers as enclosures, in the frame.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "host/solve/cells.h"
+#include "host/survey/statistics.h"
+
+namespace vkh {
+
+/// The areas of A's faces as integers, together between 2^59 and 2^62.
+struct AreaWeights {
+  std::vector<uint64_t> of_face;
+  double whole = 0;  ///< all of them, rounded to nearest
+  /// The areas of parts of faces, in the integers' unit, differ together from their parts of the
+  /// integers by no more than this.
+  double error = 0;
+};
+/// `areas` are positive.
+AreaWeights weights_of(const Areas& areas);
+
+/// The plan of a tally at some thresholds: at most gpu::kSurveyEdges. Each end of them ascends by
+/// itself, so that a threshold has a place for either.
+struct TallyEdges {
+  struct Places {
+    size_t down, up;
+  };
+  std::vector<gpu::SurveyEdge> edges;
+  std::vector<Places> of;  ///< of each threshold
+};
+TallyEdges edges_of(std::span<const Threshold> thresholds);
+
+/// The unit of a tally: every distance is below 2^(unit - 127).
+int tally_unit(float farthest);
+
+class AreaTable {
+ public:
+  AreaTable(const gpu::SurveyTable& table, const TallyEdges& at, const AreaWeights& weights,
+            int unit);
+
+  /// The share of A's area within each threshold.
+  std::vector<Enclosure> shares() const;
+  Moments moments() const;
+  double lowest() const;   ///< no distance is less,
+  double highest() const;  ///< and none is more
+
+ private:
+  Enclosure share(const TallyEdges::Places& at) const;
+  double mean_down(uint32_t sum, double largest) const;
+  double mean_up(uint32_t sum, double largest) const;
+
+  const gpu::SurveyTable& table_;
+  const TallyEdges& at_;
+  const AreaWeights& weights_;
+  const double unit_;
+  std::vector<double> surely_, perhaps_;  // areas within each edge
+};
+
+}  // namespace vkh

@@ -1,0 +1,47 @@
+// The figures that a survey was asked for, in the frame, and how narrow each is to be.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "host/survey/statistics.h"
+#include "vkhausdorff/survey.h"
+
+namespace vkh {
+
+struct FiguresAsked {
+  FiguresAsked(const SurveyOptions& asked, const SurveyedPair& pair);
+
+  SurveyOptions options;
+  double displacement;
+  Frame frame;
+  double least;                                              ///< the width that is always enough
+  double largest = std::numeric_limits<double>::infinity();  ///< no distance is above it
+
+  static double width(const Enclosure& e) { return e.upper - e.lower; }
+  /// The width that is enough for a length.
+  double enough(const Enclosure& figure) const {
+    return std::max(options.mean_tolerance * figure.lower, least);
+  }
+  bool is_open(const Enclosure& length) const { return width(length) > enough(length); }
+  Threshold threshold(double distance) const { return threshold_at(frame, displacement, distance); }
+  std::vector<Threshold> bands() const;
+  /// How far a share is to be narrowed: its own width, or that of its harmonic mean with the other
+  /// surface's share where that is larger.
+  double width_of_share(const Enclosure& share, size_t band) const;
+  bool is_enough(const Enclosure& share, size_t band) const;
+  /// Whether an undecided share is so for ever: but for what is enough, the undecided area is
+  /// proven to lie at that distance, as well as floats tell. `before` and `behind`: the shares
+  /// within a least width less, and more.
+  bool is_atom(const Enclosure& share, const Enclosure& before, const Enclosure& behind) const;
+  /// How far from the ends of a percentile that jumps nearly no area may lie: two fifths of the
+  /// width that would be enough.
+  double beside(const Enclosure& percentile) const { return 0.4 * enough(percentile); }
+  /// Whether a percentile is wide for ever: nearly no area lies between its ends, but beside them.
+  bool is_gap(const Enclosure& percentile, const Enclosure& at_from, const Enclosure& at_to) const;
+  /// Percentiles are sought to so much, if some point is so far.
+  double resolution(double reached) const { return std::max(0x1p-17 * reached, least / 16); }
+};
+
+}  // namespace vkh

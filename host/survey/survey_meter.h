@@ -1,0 +1,93 @@
+// What a survey may take, and what it has taken: effort, time, the caller's patience.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+#include "vkhausdorff/survey.h"
+
+namespace vkh {
+
+class SurveyMeter {
+ public:
+  /// `keeps_time_for_sides`: cells are split in the first part of the time alone. The options
+  /// outlive it.
+  SurveyMeter(const SurveyOptions& options, bool on_cpu, bool keeps_time_for_sides)
+      : options_(options),
+        ms_of_cells_(1000 * options.time_limit_s * (keeps_time_for_sides ? kPartOfCells : 1)),
+        effort_(options.effort.value_or(default_effort(on_cpu))),
+        batch_(on_cpu ? 1024 : 65536) {}
+
+  /// Whether the caller lets the survey go on, however long it took.
+  bool is_wanted() {
+    if (ended_ != SurveyEnd::kCancelled && options_.goes_on && !options_.goes_on(bounded_))
+      ended_ = SurveyEnd::kCancelled;
+    return ended_ != SurveyEnd::kCancelled;
+  }
+  /// Asks the caller first: a survey that was cancelled is none that time ended.
+  bool goes_on() { return goes_on(ended_, ms_of_cells_); }
+  /// The same for the work on sides, which has some time of its own.
+  bool sides_go_on() { return goes_on(sides_ended_, 1000 * options_.time_limit_s); }
+  /// The reason why one of them was false; before one was, kMet.
+  SurveyEnd ended() const { return std::max(ended_, sides_ended_); }
+
+  size_t effort() const { return effort_; }
+  size_t effort_left() const { return effort_ - std::min(spent_, effort_); }
+  void spend(size_t cells) { spent_ += cells; }
+
+  /// Cells of the next submission. How many they are decides no result.
+  size_t batch() const { return batch_; }
+  size_t bounded() const { return bounded_; }
+  void note_bounded(size_t cells) { bounded_ += cells; }
+  /// Notes that a submission of so many cells took so long: the next one takes as long as it
+  /// should.
+  void note_batch(size_t cells, double ms) {
+    const double fits = options_.submission_ms * static_cast<double>(cells) / std::max(ms, 1e-6);
+    const size_t most = std::min(4 * batch_, kMostBatch);
+    batch_ = fits >= static_cast<double>(most)
+                 ? most
+                 : std::max(static_cast<size_t>(fits) / 4 * 4, kLeastBatch);
+  }
+  /// Calls `work`, whose time counts as the device's, and returns how long it took.
+  template <class Work>
+  double on_device(const Work& work) {
+    const Clock::time_point start = Clock::now();
+    work();
+    const double ms = ms_since(start);
+    device_ms_ += ms;
+    return ms;
+  }
+  double device_ms() const { return device_ms_; }
+  double ms() const { return ms_since(start_); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double ms_since(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  }
+
+  bool goes_on(SurveyEnd& ended, double limit_ms) {
+    if (ended != SurveyEnd::kMet) return false;
+    if (!is_wanted()) {
+      ended = SurveyEnd::kCancelled;
+    } else if (ms() > limit_ms) {
+      ended = SurveyEnd::kTime;
+    }
+    return ended == SurveyEnd::kMet;
+  }
+
+  static constexpr double kPartOfCells = 0.7;
+  static constexpr size_t kLeastBatch = 64,  // halves come in twos, and parts in fours
+      kMostBatch = size_t{1} << 20;
+  const SurveyOptions& options_;
+  const Clock::time_point start_ = Clock::now();
+  const double ms_of_cells_;
+  const size_t effort_;
+  size_t spent_ = 0;
+  size_t batch_;
+  size_t bounded_ = 0;
+  double device_ms_ = 0;
+  SurveyEnd ended_ = SurveyEnd::kMet, sides_ended_ = SurveyEnd::kMet;
+};
+
+}  // namespace vkh

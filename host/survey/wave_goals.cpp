@@ -1,0 +1,206 @@
+#include "host/survey/wave_goals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "host/survey/goals.h"
+
+namespace vkh {
+namespace {
+
+constexpr int kPieces = 16;    // into which a tally cuts each range of a percentile
+constexpr size_t kOfBand = 3;  // thresholds: the band, and a least width before and behind it
+
+struct OpenShares {
+  gpu::SurveyPlan& plan;
+
+  void add(const Threshold& at, double weight) {
+    if (plan.open_count == gpu::kSurveyOpen) return;  // the others are sought later
+    plan.open[plan.open_count] = {static_cast<float>(at.down), static_cast<float>(at.up)};
+    plan.shares[plan.open_count++] = static_cast<float>(weight);
+  }
+};
+
+// A figure's whole width scores 1; it is not 0 where the figure is open, but for shares of
+// percentiles, whose ends are known by the thresholds alone.
+double weight_of_width(double width) { return 1 / std::max(width, 1e-9); }
+
+double squares_width(const Enclosure& rms) { return rms.upper * rms.upper - rms.lower * rms.lower; }
+
+}  // namespace
+
+WaveGoals::WaveGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest)
+    : asked_(options, pair) {
+  // The share that is kept is sought as narrowly as any share.
+  if (options.max_distance) asked_.options.bands.push_back(options.max_distance->within);
+  for (const Threshold& band : asked_.bands()) bands_.push_back({band});
+  for (const double share : options.percentiles) {
+    Quantile& p = quantiles_.emplace_back();
+    p.share = share;
+    p.known = {0, farthest};
+    p.first = farthest;
+  }
+}
+
+bool WaveGoals::is_open(size_t band) const {
+  const Band& b = bands_[band];
+  return !asked_.is_enough(b.share, band) && (!b.is_atom || asked_.options.enough);
+}
+
+bool WaveGoals::is_open(const Quantile& p) const {
+  return asked_.options.narrows_percentiles && asked_.is_open(p.known) && !p.is_gap;
+}
+
+bool WaveGoals::is_open_mean() const {
+  return asked_.options.narrows_mean && asked_.is_open(moments_.mean);
+}
+bool WaveGoals::is_open_rms() const {
+  return asked_.options.narrows_rms && asked_.is_open(moments_.rms);
+}
+
+// All that is known, and closer about both ends.
+std::vector<Threshold> WaveGoals::thresholds_of(const Quantile& p) const {
+  std::vector<Threshold> at;
+  const auto cut = [&](double from, double to) {
+    for (int k = 1; k < kPieces; ++k) {
+      const double distance = std::clamp(from + (to - from) * k / kPieces, from, to);
+      at.push_back({distance, distance});
+    }
+  };
+  cut(p.known.lower, p.known.upper);
+  cut(p.known.lower, std::clamp(p.first, p.known.lower, p.known.upper));
+  cut(std::clamp(p.last, p.known.lower, p.known.upper), p.known.upper);
+  const double beside = asked_.beside(p.known);
+  at.push_back({p.known.lower + beside, p.known.lower + beside});
+  at.push_back({p.known.upper - beside, p.known.upper - beside});
+  return at;
+}
+
+std::vector<Threshold> WaveGoals::thresholds() const {
+  std::vector<Threshold> at;
+  for (const Band& band : bands_) {
+    at.push_back(band.at);
+    at.push_back({band.at.down - asked_.least, band.at.down - asked_.least});
+    at.push_back({band.at.up + asked_.least, band.at.up + asked_.least});
+  }
+  for (const Quantile& p : quantiles_) {
+    if (!asked_.options.narrows_percentiles) break;
+    const std::vector<Threshold> some = thresholds_of(p);
+    at.insert(at.end(), some.begin(), some.end());
+  }
+  return at;
+}
+
+// A distance at which less than the share may be within is below the percentile; one at which it
+// surely is within is not.
+void WaveGoals::look(Quantile& p, std::span<const Threshold> at,
+                     std::span<const Enclosure> shares) const {
+  const size_t probes = at.size() - 2;
+  p.is_gap = asked_.is_gap(p.known, shares[probes], shares[probes + 1]);
+  p.first = p.known.upper;
+  p.last = p.known.lower;
+  p.at_first = p.at_last = {};
+  for (size_t k = 0; k < probes; ++k) {
+    const double distance = at[k].down;
+    const bool is_perhaps = shares[k].upper >= p.share, is_surely = shares[k].lower >= p.share;
+    if (!is_perhaps) p.known.lower = std::max(p.known.lower, distance);
+    if (is_surely) p.known.upper = std::min(p.known.upper, distance);
+    if (is_perhaps && distance <= p.first) {
+      p.first = distance;
+      p.at_first = shares[k];
+    }
+    if (!is_surely && distance >= p.last) {
+      p.last = distance;
+      p.at_last = shares[k];
+    }
+  }
+}
+
+// The ends must be close to where the cells have them: to see whether they are narrow, and what to
+// split; and where nearly no area lies between, to see that.
+bool WaveGoals::is_coarse(const Quantile& p) const {
+  if (!is_open(p)) return false;
+  const bool may_be_gap = asked_.is_gap(p.known, p.at_first, p.at_last);
+  const double width = FiguresAsked::width(p.known);
+  return p.doubt() > (may_be_gap ? std::min(width, asked_.beside(p.known)) : width) / 8;
+}
+
+bool WaveGoals::look(const Tallied& tallied) {
+  const std::vector<Threshold> at = thresholds();
+  const std::span<const Enclosure> shares = tallied.shares;
+  size_t k = 0;
+  for (Band& band : bands_) {
+    band.share = shares[k];
+    band.is_atom = asked_.is_atom(shares[k], shares[k + 1], shares[k + 2]);
+    k += kOfBand;
+  }
+  moments_ = tallied.moments;
+  bool may_be_closer = false;
+  for (Quantile& p : quantiles_) {
+    if (!asked_.options.narrows_percentiles) break;
+    const double before = p.doubt();
+    const size_t count = thresholds_of(p).size();
+    look(p, std::span(at).subspan(k, count), shares.subspan(k, count));
+    k += count;
+    p.known.lower = std::clamp(tallied.lowest, p.known.lower, p.known.upper);
+    p.known.upper = std::clamp(tallied.highest, p.known.lower, p.known.upper);
+    may_be_closer = may_be_closer || (is_coarse(p) && 2 * p.doubt() < before);
+  }
+  return may_be_closer;
+}
+
+bool WaveGoals::are_met() const {
+  for (size_t i = 0; i < bands_.size(); ++i) {
+    if (is_open(i)) return false;
+  }
+  return !is_open_mean() && !is_open_rms() &&
+         std::none_of(quantiles_.begin(), quantiles_.end(),
+                      [&](const Quantile& p) { return is_open(p); });
+}
+
+gpu::SurveyPlan WaveGoals::plan(double whole) const {
+  gpu::SurveyPlan plan{};
+  plan.of_whole = static_cast<float>(1 / whole);
+  if (is_open_mean())
+    plan.mean = static_cast<float>(weight_of_width(FiguresAsked::width(moments_.mean)));
+  if (is_open_rms()) plan.square = static_cast<float>(weight_of_width(squares_width(moments_.rms)));
+  OpenShares open{plan};
+  for (size_t i = 0; i < bands_.size(); ++i) {
+    if (is_open(i)) open.add(bands_[i].at, weight_of_width(FiguresAsked::width(bands_[i].share)));
+  }
+  for (const Quantile& p : quantiles_) {
+    if (!is_open(p)) continue;
+    const double weight =
+        weight_of_width(FiguresAsked::width(p.at_first) + FiguresAsked::width(p.at_last));
+    open.add({p.first, p.first}, weight);
+    open.add({p.last, p.last}, weight);
+  }
+  return plan;
+}
+
+double WaveGoals::part() const {
+  double part = 0;
+  const auto raise = [&](double width, double enough) {
+    part = std::max(part, part_to_split(width, enough));
+  };
+  if (is_open_mean()) raise(FiguresAsked::width(moments_.mean), asked_.enough(moments_.mean));
+  if (is_open_rms()) raise(FiguresAsked::width(moments_.rms), asked_.enough(moments_.rms));
+  for (size_t i = 0; i < bands_.size(); ++i) {
+    if (!is_open(i)) continue;
+    if (asked_.options.enough) return Scores::kNearlyAll;
+    raise(asked_.width_of_share(bands_[i].share, i), asked_.options.area_tolerance);
+  }
+  for (const Quantile& p : quantiles_) {
+    if (is_open(p)) return Scores::kNearlyAll;
+  }
+  return part;
+}
+
+std::vector<Enclosure> WaveGoals::percentiles() const {
+  std::vector<Enclosure> all;
+  for (const Quantile& p : quantiles_) all.push_back(p.known);
+  return all;
+}
+
+}  // namespace vkh

@@ -1,0 +1,70 @@
+// How far a survey by waves has got with each figure, what it asks the next tally, and how much the
+// next wave's cells score.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/survey/figures_asked.h"
+
+namespace vkh {
+
+/// What a tally says at the thresholds that it was asked, in the frame.
+struct Tallied {
+  std::vector<Enclosure> shares;  ///< of A's area within each
+  Moments moments;
+  double lowest = 0, highest = 0;  ///< no distance is less, or more
+};
+
+class WaveGoals {
+ public:
+  /// No distance is above `farthest`, in the frame.
+  WaveGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest);
+
+  /// The thresholds for the next tally. They follow from what is known.
+  std::vector<Threshold> thresholds() const;
+  /// Takes in a tally at them. Returns whether another one would narrow a percentile before any
+  /// cell is split, since the thresholds were farther apart than the cells' bounds are.
+  bool look(const Tallied& tallied);
+  bool are_met() const;
+  /// What a cell scores: its part of the widths of all figures that are open.
+  gpu::SurveyPlan plan(double whole) const;
+  /// So much of all scores is worth a wave's splits.
+  double part() const;
+
+  /// What is known of the percentiles.
+  std::vector<Enclosure> percentiles() const;
+
+ private:
+  struct Band {
+    Threshold at;
+    Enclosure share = {0, 1};
+    bool is_atom = false;
+  };
+  struct Quantile {
+    double share = 0;
+    Enclosure known;
+    // The first threshold at which the share may be reached, and the last one at which it may not
+    // be: much area is undecided there, where at the ends there may be none.
+    double first = 0, last = 0;
+    Enclosure at_first, at_last;  // the shares within them
+    bool is_gap = false;
+
+    // How far the ends may be from where the cells have them.
+    double doubt() const { return (first - known.lower) + (known.upper - last); }
+  };
+  bool is_open(size_t band) const;
+  bool is_open(const Quantile& p) const;
+  bool is_open_mean() const;
+  bool is_open_rms() const;
+  void look(Quantile& p, std::span<const Threshold> at, std::span<const Enclosure> shares) const;
+  bool is_coarse(const Quantile& p) const;
+  std::vector<Threshold> thresholds_of(const Quantile& p) const;
+
+  FiguresAsked asked_;
+  std::vector<Band> bands_;
+  std::vector<Quantile> quantiles_;
+  Moments moments_;
+};
+
+}  // namespace vkh

@@ -1,0 +1,227 @@
+#include "host/survey/wave_survey.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace vkh {
+namespace {
+
+constexpr size_t kFewestParents = 512;  // for a wave, whose other steps look at all cells
+constexpr size_t kParts = 4;            // of a cell that is split
+
+// The score in the middle of a bin.
+double score_of(size_t bin) {
+  const auto bits = static_cast<uint32_t>(bin) << 20 | 1u << 19;
+  return static_cast<double>(std::bit_cast<float>(bits));
+}
+
+double sum_of_scores(std::span<const uint32_t> counts) {
+  double sum = 0;
+  for (size_t bin = 1; bin < counts.size(); ++bin) {
+    if (counts[bin] > 0) sum += counts[bin] * score_of(bin);
+  }
+  return sum;
+}
+
+}  // namespace
+
+SurveyChoice choose_cells(std::span<const uint32_t> counts, double part, size_t most) {
+  const double wanted = part * sum_of_scores(counts);
+  double chosen = 0;
+  SurveyChoice choice;
+  for (size_t bin = counts.size() - 1; bin > 0; --bin) {
+    const size_t taken = choice.count();
+    if (taken >= most || (chosen >= wanted && taken >= kFewestParents)) break;
+    if (counts[bin] == 0) continue;
+    choice.bin = static_cast<uint32_t>(bin);
+    choice.above = static_cast<uint32_t>(taken);
+    choice.ties = static_cast<uint32_t>(std::min<size_t>(counts[bin], most - taken));
+    chosen += choice.ties * score_of(bin);
+  }
+  return choice;
+}
+
+WaveSurvey::WaveSurvey(const SurveyedPair& pair, const Areas& areas, SurveyMeter& meter,
+                       float farthest)
+    : pair_(pair),
+      cells_(*pair.cells),
+      weights_(weights_of(areas)),
+      meter_(meter),
+      unit_(tally_unit(farthest)) {
+  cells_.begin(weights_.of_face, farthest);
+  bound_fresh(cells_.count());
+}
+
+// Bounds new cells in submissions, until time or the caller ends it: those that are left have what
+// was known before. The first one is not asked for. The last one is submitted with the tally that
+// follows, unless others showed how long it takes.
+bool WaveSurvey::bound_fresh(size_t count) {
+  for (size_t first = 0; first < count;) {
+    if (meter_.bounded() > 0 && !meter_.goes_on()) return false;
+    const size_t size = std::min(meter_.batch(), count - first);
+    const bool is_last = first + size == count;
+    const bool waits = !is_last || first > 0;
+    const double ms = meter_.on_device([&] { cells_.bound(first, size, waits); });
+    first += size;
+    meter_.note_bounded(size);
+    if (waits) meter_.note_batch(size, ms);
+  }
+  return true;
+}
+
+Tallied WaveSurvey::tally(std::span<const Threshold> thresholds) {
+  Tallied all;
+  size_t first = 0;
+  do {
+    const size_t count = std::min<size_t>(thresholds.size() - first, gpu::kSurveyEdges);
+    const TallyEdges at = edges_of(thresholds.subspan(first, count));
+    gpu::SurveyPlan plan{};
+    plan.edge_count = static_cast<uint32_t>(count);
+    std::copy(at.edges.begin(), at.edges.end(), std::begin(plan.edges));
+    meter_.on_device([&] {
+      const AreaTable table(cells_.tally(plan, unit_), at, weights_, unit_);
+      const std::vector<Enclosure> shares = table.shares();
+      all.shares.insert(all.shares.end(), shares.begin(), shares.end());
+      all.moments = table.moments();
+      all.lowest = table.lowest();
+      all.highest = table.highest();
+    });
+    first += count;
+  } while (first < thresholds.size());
+  return all;
+}
+
+// Splits the cells that matter most, and bounds their parts; otherwise says why not.
+bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
+  const gpu::SurveyPlan plan = goals.plan(weights_.whole);
+  std::span<const uint32_t> counts;
+  meter_.on_device([&] { counts = cells_.score(plan); });
+  const size_t room = (cells_.most() - cells_.count()) / (kParts - 1);
+  const size_t left = (effort - std::min(spent_, effort)) / kParts;
+  const size_t most = std::min({std::max(cells_.count() / 4, kFewestParents), left, room});
+  const SurveyChoice choice = choose_cells(counts, goals.part(), most);
+  if (choice.count() == 0) {
+    const bool is_any = sum_of_scores(counts) > 0;
+    ended = !is_any ? SurveyEnd::kBits : left == 0 ? SurveyEnd::kEffort : SurveyEnd::kMemory;
+    return false;
+  }
+  if (!meter_.goes_on()) {
+    ended = meter_.ended();
+    return false;
+  }
+  if (!cells_.split(choice)) {
+    ended = SurveyEnd::kMemory;
+    return false;
+  }
+  const size_t fresh = kParts * choice.count();
+  spent_ += fresh;
+  meter_.spend(fresh);
+  if (bound_fresh(fresh)) return true;
+  ended = meter_.ended();
+  return false;
+}
+
+SurveyEnd WaveSurvey::refine(const SurveyOptions& options, size_t effort) {
+  WaveGoals goals(options, pair_, std::ldexp(1.0, unit_ - 127));
+  SurveyEnd ended = SurveyEnd::kMet;
+  do {
+    while (goals.look(tally(goals.thresholds()))) {
+    }
+  } while (!goals.are_met() && split(goals, effort, ended));
+  known_ = goals.percentiles();
+  return std::max(ended, meter_.ended());
+}
+
+const std::vector<float>& WaveSurvey::faces() {
+  if (faces_.empty()) meter_.on_device([&] { faces_ = cells_.faces(); });
+  return faces_;
+}
+
+CellStore WaveSurvey::store() {
+  std::vector<gpu::Cell> cells;
+  std::vector<gpu::CellBounds> bounds;
+  meter_.on_device([&] { cells_.read(cells, bounds); });
+  std::vector<float> reached = faces();
+  reached.resize(pair_.a.faces.size());
+  return CellStore(pair_.a, std::move(cells), std::move(bounds), std::move(reached));
+}
+
+std::vector<Enclosure> WaveSurvey::shares_within(std::span<const Threshold> thresholds) {
+  return thresholds.empty() ? std::vector<Enclosure>() : tally(thresholds).shares;
+}
+
+Moments WaveSurvey::moments() { return tally({}).moments; }
+
+double WaveSurvey::reached() {
+  const auto middle = faces().begin() + std::ssize(pair_.a.faces);
+  return static_cast<double>(*std::max_element(faces().begin(), middle));
+}
+double WaveSurvey::highest() {
+  const auto middle = faces().begin() + std::ssize(pair_.a.faces);
+  return static_cast<double>(*std::max_element(middle, faces().end()));
+}
+
+namespace {
+
+// One end of a percentile between two distances: it is above the one and not above the other.
+struct PercentileEnd {
+  double share, low, high;
+  double enough;  // so close is near enough
+  bool is_upper;
+
+  static constexpr int kSections = 8;
+  bool is_wide() const { return high - low > enough; }
+  double cut(int k) const { return low + (high - low) * k / kSections; }
+  bool is_reached(const Enclosure& within) const {
+    return is_upper ? within.lower >= share : within.upper >= share;
+  }
+  void look(std::span<const Enclosure> at_cuts) {
+    const PercentileEnd before = *this;
+    for (int k = 1; k < kSections; ++k) {
+      if (is_reached(at_cuts[static_cast<size_t>(k - 1)])) {
+        high = std::min(high, before.cut(k));
+      } else {
+        low = std::max(low, before.cut(k));
+      }
+    }
+  }
+};
+
+}  // namespace
+
+// Each pass cuts what is left of the ends. No cell is split between two.
+std::vector<Enclosure> WaveSurvey::percentiles(const PercentileSearch& search) {
+  constexpr int kMostPasses = 20;
+  constexpr double kOfWidth = 1.0 / 32;  // nearer ends make no interval much narrower
+  std::vector<PercentileEnd> ends;
+  for (size_t i = 0; i < search.shares.size(); ++i) {
+    const Enclosure known = search.known.empty() ? Enclosure{0, highest()} : search.known[i];
+    const double enough = std::max(search.resolution, kOfWidth * FiguresAsked::width(known));
+    ends.push_back({search.shares[i], known.lower, known.upper, enough, false});
+    ends.push_back({search.shares[i], known.lower, known.upper, enough, true});
+  }
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    std::vector<Threshold> at;
+    for (const PercentileEnd& e : ends) {
+      for (int k = 1; k < PercentileEnd::kSections && e.is_wide(); ++k)
+        at.push_back({e.cut(k), e.cut(k)});
+    }
+    if (at.empty()) break;
+    const std::vector<Enclosure> shares = shares_within(at);
+    constexpr size_t kCuts = PercentileEnd::kSections - 1;
+    size_t first = 0;
+    for (PercentileEnd& e : ends) {
+      if (!e.is_wide()) continue;
+      e.look(std::span(shares).subspan(first, kCuts));
+      first += kCuts;
+    }
+  }
+  std::vector<Enclosure> all;
+  for (size_t i = 0; i < ends.size(); i += 2) all.push_back({ends[i].low, ends[i + 1].high});
+  return all;
+}
+
+}  // namespace vkh

@@ -1,0 +1,61 @@
+// A survey by waves: cells stay on the device, where each wave scores them, splits those that
+// matter most, bounds their parts and adds up what all of them tell of A. The host reads a table
+// and plans.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "host/survey/area_figures.h"
+#include "host/survey/area_table.h"
+#include "host/survey/cell_store.h"
+#include "host/survey/survey_meter.h"
+#include "host/survey/wave_goals.h"
+
+namespace vkh {
+
+/// The cells that hold `part` of all scores, the largest first, and `most` at most; `counts`: cells
+/// of each bin. They follow from the counts alone.
+SurveyChoice choose_cells(std::span<const uint32_t> counts, double part, size_t most);
+
+class WaveSurvey : public AreaDistances {
+ public:
+  /// Bounds all faces of A, a surface. No distance is above `farthest`, in the frame. All arguments
+  /// outlive it; pair.cells is there.
+  WaveSurvey(const SurveyedPair& pair, const Areas& areas, SurveyMeter& meter, float farthest);
+
+  /// Refines until all figures are as narrow as they were asked for, or cannot be, by `effort`
+  /// bounded cells at most.
+  SurveyEnd refine(const SurveyOptions& options, size_t effort);
+
+  size_t count() const { return cells_.count(); }
+  /// Of each face, a distance that some point reaches; and then, of each, one that none exceeds.
+  const std::vector<float>& faces();
+  /// Hands the cells to the host.
+  CellStore store();
+  /// What is known of the percentiles that refine() was asked for.
+  const std::vector<Enclosure>& known() const { return known_; }
+
+  std::vector<Enclosure> shares_within(std::span<const Threshold> thresholds) override;
+  std::vector<Enclosure> percentiles(const PercentileSearch& search) override;
+  Moments moments() override;
+  double reached() override;
+  double highest() override;
+
+ private:
+  bool bound_fresh(size_t count);
+  bool split(WaveGoals& goals, size_t effort, SurveyEnd& ended);
+  Tallied tally(std::span<const Threshold> thresholds);
+
+  const SurveyedPair& pair_;
+  SurveyCells& cells_;
+  const AreaWeights weights_;
+  SurveyMeter& meter_;
+  const int unit_;
+  size_t spent_ = 0;
+  std::vector<Enclosure> known_;
+  std::vector<float> faces_;  // none until they are asked for
+};
+
+}  // namespace vkh
