@@ -55,7 +55,8 @@ Status status_of(const VkhReport& r, const Report& out, Status ended) {
 }  // namespace
 
 struct Solver::Impl {
-  Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
+  Impl(Device& d, std::shared_ptr<Contexts> all)
+      : device(d), contexts(std::move(all)), runner(d, contexts) {}
   std::vector<Report> distances(std::span<const PairView> meshes,
                                 const std::vector<SolveOptions>& options,
                                 const RunHooks* hooks = nullptr);
@@ -63,12 +64,17 @@ struct Solver::Impl {
                                           Clock::time_point start);
   std::vector<Report> solve(const std::vector<Pair>& pairs, Clock::time_point start);
   Device& device;
+  const std::shared_ptr<Contexts> contexts;
   Runner runner;
 };
 
 Solver::Solver(Device& device, const std::filesystem::path& cache_folder) {
   const FloatEnvironment ours;
-  impl_ = std::make_unique<Impl>(device, cache_folder);
+  impl_ = std::make_unique<Impl>(device, std::make_shared<Contexts>(device, cache_folder));
+}
+Solver::Solver(SharesPipelines, const Solver& other) {
+  const FloatEnvironment ours;
+  impl_ = std::make_unique<Impl>(other.impl_->device, other.impl_->contexts);
 }
 Solver::~Solver() = default;
 const Device& Solver::device() const { return impl_->device; }
@@ -237,7 +243,7 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::t
 
 void Solver::make_ready(const EngineOptions& options) {
   const FloatEnvironment ours;
-  impl_->runner.make_ready(switches_of(options, impl_->device) & ~kSwitchMultiwave);
+  impl_->contexts->get(switches_of(options, impl_->device) & ~kSwitchMultiwave);
 }
 
 namespace {
@@ -477,7 +483,6 @@ void with_cells(Solver& solver, const PairView& pair, const SolveOptions& option
   SolveOptions run = options;
   run.limit = {};
   run.known_lower = 0;
-  run.engine.coverage = false;
   run.wave_limit = 1;
   run.time_limit_s = std::numeric_limits<double>::infinity();
   const PairView alone{.a = pair.a, .b = pair.b, .prepared = pair.prepared};

@@ -146,7 +146,7 @@ struct PairStream::Impl {
     std::vector<std::thread> others;
     try {
       for (size_t i = 1; i < lanes.shape.lanes; ++i) {
-        solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
+        solvers.push_back(std::make_unique<Solver>(Solver::SharesPipelines{}, *solvers[0]));
         others.emplace_back([&, solver = solvers.back().get()] { run(*solver); });
       }
     } catch (...) {  // goes on with fewer workers

@@ -59,6 +59,10 @@ class Solver {
   /// `cache_folder`: where pipelines are kept between processes, in files of their own for each
   /// driver and build; empty: nowhere.
   explicit Solver(Device& device, const std::filesystem::path& cache_folder = {});
+  /// A solver on the device of another, with buffers of its own, that shares its pipelines: those
+  /// that either makes, both have.
+  struct SharesPipelines {};
+  Solver(SharesPipelines, const Solver& other);
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
