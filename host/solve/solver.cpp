@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -275,11 +276,14 @@ Framed framed_alone(const PairView& m) {
   return f;
 }
 
-Framed framed_by(const KeptMesh& kept, const Mesh& a) {
+// Nothing if B's frame does not serve A. A pair that was framed before is in that frame if it does.
+std::optional<Framed> framed_by(const KeptMesh& kept, const PairView& m) {
+  const Box box_a = m.framed != nullptr ? m.framed->box_a : bounding_box(m.a);
+  if (!serves(kept.frame, kept.box, box_a)) return std::nullopt;
   Framed f{.displacement_b = kept.displacement, .has_low_b = kept.has_low, .kept = &kept};
   f.pair.frame = kept.frame;
-  f.pair.a = store_in(kept.frame, a);
-  f.pair.box_a = bounding_box(a);
+  f.pair.a = m.framed != nullptr ? m.framed->a : store_in(kept.frame, m.a);
+  f.pair.box_a = box_a;
   f.pair.box_b = kept.box;
   return f;
 }
@@ -309,8 +313,9 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> views,
   for (const PairView& m : views) bytes += m.framed ? 0 : mesh_bytes(m.a) + mesh_bytes(m.b);
   const auto frame = [&](size_t i) {
     const PairView& m = views[i];
-    const bool is_served = m.prepared != nullptr && m.prepared->serves(m.a);
-    framed[i] = is_served ? framed_by(*m.prepared->impl_, m.a) : framed_alone(m);
+    std::optional<Framed> served;
+    if (m.prepared != nullptr) served = framed_by(*m.prepared->impl_, m);
+    framed[i] = served ? std::move(*served) : framed_alone(m);
   };
   for_each_index(views.size(), frame, threads_for(bytes));
 
@@ -406,13 +411,9 @@ ClosestPoints Solver::closest(const Mesh& b, std::span<const DVec3> points,
                              {points, heard_outside(goes_on, ours)});
 }
 
-// B's frame is B's alone, so that the answer does not depend on the A's before. B fills it; an A
-// up to four times as far out costs two of the 48 bits. Farther ones would lose the tolerance, not
-// the truth, and get a frame around both. A point has no size to choose a frame by.
 bool PreparedMesh::serves(const Mesh& a) const {
   const FloatEnvironment ours;
-  const double extent = impl_->frame.extent(join(bounding_box(a), impl_->box));
-  return extent >= 0.5 && extent <= 4;
+  return vkh::serves(impl_->frame, impl_->box, bounding_box(a));
 }
 
 Report Solver::distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options) {
@@ -446,7 +447,7 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
     }
     sought.push_back(i);
     back.push_back({.a = b, .b = a});
-    if (pairs[i].framed != nullptr) {
+    if (pairs[i].framed != nullptr && pairs[i].prepared == nullptr) {
       framed.push_back(pairs[i].framed->reversed());
       back.back().framed = &framed.back();
     }

@@ -43,8 +43,9 @@ struct PairView {
   const PreparedMesh* prepared = nullptr;  ///< b on the device; its answer is that of distance()
   const SolveOptions* options = nullptr;   ///< the pair's own; null: those of the call. `engine`
                                            ///< and memory should be the same for all
-  /// frame_pair(a, b) of frame.h, made before, on any thread, for two meshes that check_mesh() let
-  /// pass; null: the call checks and frames them.
+  /// frame_pair(a, b) of frame.h, or with a prepared `b` whose frame serves `a` both in that frame,
+  /// made before, on any thread, for two meshes that check_mesh() let pass; null: the call checks
+  /// and frames them.
   const FramedPair* framed = nullptr;
 };
 
