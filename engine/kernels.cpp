@@ -118,7 +118,8 @@ VkResult create_pipeline(const VkhContext_T& c, const KernelSource& source, VkPi
   name_object(c, VK_OBJECT_TYPE_SHADER_MODULE, shader, source.name);  // a message about SPIR-V
 
   // kSwitches and kWide (base/switches.glsl).
-  const std::array<uint32_t, 2> values{c.limits.switches, c.limits.wide ? VK_TRUE : VK_FALSE};
+  const std::array<uint32_t, 2> values{c.limits.switches & ~gpu::kAddsKernels,
+                                       c.limits.wide ? VK_TRUE : VK_FALSE};
   const std::array<VkSpecializationMapEntry, 2> entries{{{0, 0, 4}, {1, 4, 4}}};
   const VkSpecializationInfo specialisation{2, entries.data(), sizeof(values), values.data()};
   VkComputePipelineCreateInfo info{};

@@ -96,14 +96,19 @@ VKH_SWITCHES(VKH_SWITCH)
 // plain floats, by which NOTHING IS CERTIFIED.
 VKH_CONST uint kUseCoverage = 1u << 7;
 VKH_CONST uint kUseUncertified = 1u << 10;
-// Cells can be bounded after the run (report/cell_bounds.comp).
-VKH_CONST uint kUseField = 1u << 17;
 // A candidate whose barycentric bits run out becomes a root of its own (wave/subroot.glsl).
 VKH_CONST uint kUseSubroots = 1u << 18;
+#ifdef __cplusplus
+// These add kernels, and are in no other kernel's code: their bits are left out of kSwitches, so
+// that a driver which has compiled a kernel for one context has it for the next.
+// Cells can be bounded after the run (report/cell_bounds.comp).
+VKH_CONST uint kUseField = 1u << 17;
 // Meshes are checked on the device (bvh/mesh_check.comp).
 VKH_CONST uint kUseInputCheck = 1u << 19;
 // Points can be asked for their closest faces (report/closest_faces.comp).
 VKH_CONST uint kUseClosest = 1u << 20;
+VKH_CONST uint kAddsKernels = kUseField | kUseInputCheck | kUseClosest;
+#endif
 // The most subroots: a quarter of the frontier's capacity, and no more than this. Most runs have
 // tens.
 VKH_CONST uint kMostSubroots = 1u << 14;

@@ -27,10 +27,12 @@ VKH_PREDICATE(is_apart, !kWide || (kSwitches & kUseApart) != 0u)
 VKH_PREDICATE(is_filtered, (kSwitches & kUseFilter) != 0u)
 VKH_PREDICATE(asks_centroids, (kSwitches & kUseCentroid) != 0u)
 VKH_PREDICATE(covers_area, (kSwitches & kUseCoverage) != 0u)
-VKH_PREDICATE(bounds_cells, (kSwitches & kUseField) != 0u)
 VKH_PREDICATE(has_subroots, (kSwitches & kUseSubroots) != 0u)
+#ifdef __cplusplus
+VKH_PREDICATE(bounds_cells, (kSwitches & kUseField) != 0u)
 VKH_PREDICATE(finds_closest, (kSwitches & kUseClosest) != 0u)
 VKH_PREDICATE(checks_input, (kSwitches & kUseInputCheck) != 0u)
+#endif
 // Whether a whole workgroup may traverse for one query.
 VKH_PREDICATE(traverses_by_group, kWide && (kSwitches & kUseGroupWalk) != 0u)
 VKH_PREDICATE(splits_apart,

@@ -108,13 +108,8 @@ void take_built_in(AskedPair& asked) {
 /// B, whose threads go on and keep `at`.
 void take_files(const std::shared_ptr<FileWork>& at, AskedPair& asked) {
   constexpr uint64_t kWorthwhile = 100'000'000;  // about a second on one core
-  uint64_t bytes = 0;
   const std::string &file_a = at->question.file_a, &file_b = at->question.file_b;
-  for (const std::string& file : {file_a, file_b}) {
-    std::error_code none;
-    const uintmax_t size = std::filesystem::file_size(path_of(file), none);
-    if (!none) bytes += size;
-  }
+  const uint64_t bytes = file_bytes(path_of(file_a)) + file_bytes(path_of(file_b));
   const auto bytes_read = std::make_shared<std::atomic<uint64_t>>(0);
   const auto limits_of = [&](bool is_b) {
     ReadLimits limits = at->question.limits_of(is_b);

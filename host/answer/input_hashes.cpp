@@ -10,12 +10,6 @@
 namespace vkh {
 namespace {
 
-uint64_t bytes_of_file(const std::filesystem::path& path) {
-  std::error_code none;
-  const uintmax_t size = std::filesystem::file_size(path, none);
-  return none ? 0 : size;
-}
-
 std::string sha256_within(const std::filesystem::path& path, const ReadLimits& limits) {
   const auto goes_on = [&] { return !limits.keep_going || limits.keep_going(); };
   std::string digest = sha256_of(path, goes_on);
@@ -31,7 +25,7 @@ std::vector<FileHash> hash_beneath(const std::filesystem::path& path, const Read
   for (const FileBeneath& file : files_beneath(path, limits)) {
     const bool is_there = !file.path.empty();
     hashes.push_back({file.name, is_there ? sha256_within(file.path, limits) : ""});
-    if (is_there) bytes += bytes_of_file(file.path);
+    if (is_there) bytes += file_bytes(file.path);
   }
   return hashes;
 }
@@ -46,7 +40,7 @@ std::vector<FileHash> hashes_beneath(const std::string& file, const ReadLimits& 
 InputHashes hashes_of_input(const std::string& file, const ReadLimits& limits) {
   const std::filesystem::path path = path_of(file);
   InputHashes hashes{.sha256 = sha256_within(path, limits), .files = {}};
-  hashes.bytes = bytes_of_file(path);
+  hashes.bytes = file_bytes(path);
   if (!hashes.sha256.empty()) hashes.files = hash_beneath(path, limits, hashes.bytes);
   return hashes;
 }

@@ -323,6 +323,7 @@ void fit_a(const Question& question, Solver& solver, const Observer& observer,
   AskedPlace placement = placement_of(question, a, b);
   AlignOptions options;
   options.goes_on = [&observer](size_t) { return observer.is_to_go_on(); };
+  solver.make_ready(engine_of(question));
   std::optional<Mesh> moved;
   const Mesh& start = start_of(placement, a, moved);
   const Alignment found = prepared != nullptr ? align(solver, start, *prepared, options)
@@ -396,6 +397,7 @@ EngineOptions engine_of(const Question& question) {
   const bool is_fine = tolerance.of == Length::Of::kDiagonal && tolerance.number < kFineTolerance;
   engine.fine = engine.fine || is_fine;
   engine.cells = engine.cells || question.asks_for_cells();
+  engine.closest = engine.closest || question.align;
   engine.coverage = engine.coverage || question.verify;
   return engine;
 }

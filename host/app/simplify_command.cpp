@@ -115,8 +115,10 @@ SimplifyPlaces SimplifyCommand::places() const {
 
 /// Opens the device beside reading.
 void SimplifyCommand::read() {
+  const bool is_share = question_.max->of == Length::Of::kDiagonal;
+  const double share = is_share ? question_.max->number : 1;
   auto opening =
-      begin_now([selector = question_.device, engine = question_.engine,
+      begin_now([selector = question_.device, engine = simplify_engine(question_.engine, share),
                  cache = question_.caches ? user_cache_folder() : std::filesystem::path()] {
         return open_session(selector, false, engine, cache);
       });

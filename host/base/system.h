@@ -4,6 +4,7 @@
 // A file's name in a string is UTF-8 on Windows, and the system's own bytes elsewhere.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,6 +17,13 @@ inline std::filesystem::path path_of(const std::string& name) {
 inline std::string name_of(const std::filesystem::path& path) {
   const std::u8string name = path.u8string();
   return {name.begin(), name.end()};
+}
+
+/// The size of a file; 0: not known.
+inline uint64_t file_bytes(const std::filesystem::path& path) {
+  std::error_code none;
+  const uintmax_t size = std::filesystem::file_size(path, none);
+  return none ? 0 : size;
 }
 
 /// The last part of a path, or all of it if that is empty.

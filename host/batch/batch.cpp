@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "host/answer/asking_stream.h"
+#include "host/answer/one_of_many.h"
 #include "host/answer/progress_line.h"
 #include "host/base/begin_now.h"
 #include "host/base/output_file.h"

@@ -1,25 +1,18 @@
 #include "host/batch/reader.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
+#include "host/answer/one_of_many.h"
 #include "host/answer/quantities.h"
 #include "host/base/decimal.h"
 #include "host/base/system.h"
 #include "vkhausdorff/error.h"
-#include "vkhausdorff/mesh_io.h"
 #include "vkhausdorff/place.h"
 #include "vkhausdorff/sha256.h"
 
 namespace vkh {
 namespace {
-
-uint64_t size_of(const std::string& file) {
-  std::error_code none;
-  const uintmax_t size = std::filesystem::file_size(path_of(file), none);
-  return none ? 0 : size;
-}
 
 std::string sha256_of_text(const std::string& text) {
   bool is_over = false;
@@ -66,28 +59,11 @@ std::set<std::string> shared_files(const std::vector<Entry>& entries) {
   return more;
 }
 
-// A thread that requests a file that another thread reads waits for it.
 InputHashes EntryReader::hashes_of(const std::string& file, bool is_shared) {
   ReadLimits limits = base_.question.limits;
   limits.keep_going = keep_going_;
-  if (!is_shared) return hashes_of_input(file, limits);
-  std::promise<InputHashes> mine;
-  std::shared_future<InputHashes> theirs;
-  {
-    const std::lock_guard lock(mutex_);
-    const auto [known, is_new] = hashes_.try_emplace(file);
-    if (is_new) known->second = mine.get_future().share();
-    if (!is_new) theirs = known->second;
-  }
-  if (theirs.valid()) return theirs.get();
-  try {
-    InputHashes hashes = hashes_of_input(file, limits);
-    mine.set_value(hashes);
-    return hashes;
-  } catch (...) {
-    mine.set_exception(std::current_exception());
-    throw;
-  }
+  const auto made = [&] { return hashes_of_input(file, limits); };
+  return is_shared ? hashes_.get(file, made) : made();
 }
 
 NamedEntry EntryReader::name(const Entry& entry) {
@@ -113,54 +89,36 @@ NamedEntry EntryReader::name(const Entry& entry) {
 
 std::shared_ptr<ReadMesh> EntryReader::mesh_of(const std::string& file,
                                                const ReadLimits& limits) const {
-  constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones are read one per thread
   ReadLimits of_this = limits;
   of_this.keep_going = keep_going_;
-  of_this.threads = size_of(file) < kLarge ? 1 : 0;
-  return std::make_shared<ReadMesh>(read_mesh(path_of(file), of_this));
+  return std::make_shared<ReadMesh>(read_one_of_many(file, of_this));
 }
 
 // Keeps those used last, so that a list that goes back and forth between two B's reads each once.
-void EntryReader::drop_old() {
+void EntryReader::note_use(const std::string& key, const std::string& file) {
   constexpr size_t kMost = 256;  // as many as are kept prepared
   constexpr uint64_t kMostBytes = uint64_t{1} << 29;
+  const std::lock_guard lock(mutex_);
+  kept_[key] = {.last_use = ++uses_, .bytes = kBytesOfAByte * file_bytes(path_of(file))};
   uint64_t bytes = 0;
-  for (const auto& [file, kept] : meshes_) bytes += kept.bytes;
-  while (meshes_.size() > 1 && (meshes_.size() > kMost || bytes > kMostBytes)) {
+  for (const auto& [name, kept] : kept_) bytes += kept.bytes;
+  while (kept_.size() > 1 && (kept_.size() > kMost || bytes > kMostBytes)) {
     const auto oldest = std::min_element(
-        meshes_.begin(), meshes_.end(),
+        kept_.begin(), kept_.end(),
         [](const auto& x, const auto& y) { return x.second.last_use < y.second.last_use; });
     bytes -= oldest->second.bytes;
-    meshes_.erase(oldest);
-  }
-}
-
-ShapedMesh EntryReader::kept_mesh_of(const std::string& file, const ReadLimits& limits) {
-  std::promise<ShapedMesh> mine;
-  std::shared_future<ShapedMesh> theirs;
-  {
-    const std::lock_guard lock(mutex_);
-    const auto [known, is_new] = meshes_.try_emplace((limits.points ? "points " : "mesh ") + file);
-    known->second.last_use = ++uses_;
-    if (is_new) known->second.mesh = mine.get_future().share();
-    if (is_new) known->second.bytes = kBytesOfAByte * size_of(file);
-    if (!is_new) theirs = known->second.mesh;
-    if (is_new) drop_old();
-  }
-  if (theirs.valid()) return theirs.get();
-  try {
-    ShapedMesh made = shaped(mesh_of(file, limits));
-    mine.set_value(made);
-    return made;
-  } catch (...) {
-    mine.set_exception(std::current_exception());
-    throw;
+    meshes_.forget(oldest->first);
+    kept_.erase(oldest);
   }
 }
 
 ShapedMesh EntryReader::b_of(const Question& question, bool is_shared) {
-  if (is_shared) return kept_mesh_of(question.file_b, question.limits_of(true));
-  return shaped(mesh_of(question.file_b, question.limits_of(true)));
+  const ReadLimits limits = question.limits_of(true);
+  const auto made = [&] { return shaped(mesh_of(question.file_b, limits)); };
+  if (!is_shared) return made();
+  const std::string key = (limits.points ? "points " : "mesh ") + question.file_b;
+  note_use(key, question.file_b);
+  return meshes_.get(key, made);
 }
 
 void EntryReader::read(bool shares_b, AskedPair& pair) {

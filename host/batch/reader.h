@@ -1,7 +1,6 @@
 // The steps from an entry of a list to a pair to solve: names and hashes first, then meshes.
 #pragma once
 
-#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -12,12 +11,10 @@
 #include "host/answer/input_hashes.h"
 #include "host/answer/result.h"
 #include "host/answer/stop.h"
+#include "host/base/made_once.h"
 #include "host/batch/list.h"
 
 namespace vkh {
-
-/// The memory per byte of a file, while it is read and as a mesh, about.
-constexpr uint64_t kBytesOfAByte = 3;
 
 /// An entry with the facts known before its meshes are read.
 struct NamedEntry {
@@ -46,21 +43,20 @@ class EntryReader {
 
  private:
   struct Kept {
-    std::shared_future<ShapedMesh> mesh;
     uint64_t last_use = 0, bytes = 0;
   };
   InputHashes hashes_of(const std::string& file, bool is_shared);
   std::shared_ptr<ReadMesh> mesh_of(const std::string& file, const ReadLimits& limits) const;
   ShapedMesh b_of(const Question& question, bool is_shared);
-  ShapedMesh kept_mesh_of(const std::string& file, const ReadLimits& limits);
-  void drop_old();
+  void note_use(const std::string& key, const std::string& file);
 
   Request base_;
   std::set<std::string> shared_;
   std::function<bool()> keep_going_;
-  std::mutex mutex_;
-  std::map<std::string, std::shared_future<InputHashes>> hashes_;  // the hashes of shared files
-  std::map<std::string, Kept> meshes_;                             // the meshes of shared files
+  MadeOnce<std::string, InputHashes> hashes_;  // of shared files
+  MadeOnce<std::string, ShapedMesh> meshes_;   // of shared files
+  std::mutex mutex_;                           // guards what follows
+  std::map<std::string, Kept> kept_;           // by the keys of meshes_
   uint64_t uses_ = 0;
 };
 

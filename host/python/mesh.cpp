@@ -9,6 +9,7 @@
 #include <chrono>
 #include <future>
 
+#include "host/answer/one_of_many.h"
 #include "host/answer/steps.h"
 #include "host/base/float_environment.h"
 #include "host/base/system.h"
@@ -31,11 +32,6 @@ struct FileMesh {
   MeshPointer mesh;
 };
 
-uint64_t file_size(const std::string& file) {
-  struct stat about {};
-  return stat(file.c_str(), &about) == 0 ? static_cast<uint64_t>(about.st_size) : 0;
-}
-
 // The same error with Python's words for the program's options.
 InputError in_python(const InputError& error) {
   constexpr std::string_view kOption = "--points";
@@ -57,11 +53,9 @@ int fault_of(const std::string& file) {
   return access(file.c_str(), R_OK) == 0 ? 0 : errno;
 }
 
-ReadMesh read_file(const std::string& file, ReadLimits limits) {
-  constexpr uint64_t kLarge = uint64_t{1} << 25;  // smaller ones gain little from more threads
-  limits.threads = file_size(file) < kLarge ? 1 : 0;
+ReadMesh read_file(const std::string& file, const ReadLimits& limits) {
   try {
-    return read_mesh(path_of(file), limits);
+    return read_one_of_many(file, limits);
   } catch (const InputError& error) {
     const int code = fault_of(file);
     if (code != 0) throw FileFault{code, file};
@@ -422,9 +416,8 @@ void raise(const FileFault& fault) {
 }
 
 uint64_t MeshGiven::bytes() const {
-  constexpr uint64_t kBytesOfAByte = 3;  // about; a file, while it is read and as a mesh
   if (mesh != nullptr) return 0;
-  if (!file.empty()) return kBytesOfAByte * file_size(file);
+  if (!file.empty()) return kBytesOfAByte * file_bytes(path_of(file));
   return mesh_bytes(arrays.vertices.size(), arrays.faces.size());
 }
 

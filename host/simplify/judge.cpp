@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/solve/switches.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/frame.h"
 
@@ -17,6 +18,17 @@ double without_margin(double within, double diagonal) {
   return within - std::min(kOfDiagonal * diagonal, kOfLimit * within);
 }
 
+// Of the limit: the width of an interval that decides it, and of one that is told.
+constexpr double kDeciding = 1e-4, kTold = 1e-3;
+
+/// Makes the pipelines of runs first, which BVHs are built with, too.
+PreparedMesh prepared(Solver& solver, const Mesh& a, const SimplifyOptions& options) {
+  const double diagonal_a = diagonal(bounding_box(a));
+  const double share = diagonal_a > 0 ? options.max.within / diagonal_a : 1;
+  solver.make_ready(simplify_engine(options.solve.engine, share));
+  return solver.prepare(a);
+}
+
 void check_limit(const Limit& max) {
   if (!(max.within > 0 && max.within <= max.beyond && std::isfinite(max.beyond)))
     throw UsageError("simplify: the limit must be a positive, finite length");
@@ -29,7 +41,7 @@ Judge::Judge(Solver& solver, const Mesh& a, const SimplifyOptions& options,
     : solver_(solver),
       options_((check_limit(options.max), options)),
       deadline_(deadline),
-      prepared_(solver.prepare(a)),
+      prepared_(prepared(solver, a, options)),
       within_(without_margin(options.max.within, diagonal(bounding_box(a)))) {}
 
 SolveOptions Judge::run_options() const {
@@ -54,7 +66,7 @@ void Judge::conclude(Deviation& d) const {
 Deviation Judge::decide(const Mesh& b) {
   SolveOptions run = run_options();
   run.limit = {within_, within_};
-  run.tolerance = 1e-4 * within_;
+  run.tolerance = kDeciding * within_;
   Deviation d;
   d.a_to_b.upper = std::numeric_limits<double>::infinity();
   // The candidate has few faces, and A's BVH is there: the cheaper direction comes first.
@@ -71,7 +83,7 @@ Deviation Judge::decide(const Mesh& b) {
 
 Deviation Judge::measure(const Mesh& b, const Deviation& decided) {
   SolveOptions run = run_options();
-  run.tolerance = 1e-3 * options_.max.within;
+  run.tolerance = kTold * options_.max.within;
   Deviation d;
   d.a_to_b = solver_.distance(prepared_.mesh(), b, run);
   if (!options_.one_way) {
@@ -92,6 +104,13 @@ std::vector<DVec3> Judge::beyond(const PreparedMesh& to, std::span<const DVec3> 
   for (size_t i = 0; i < points.size(); ++i)
     if (closest.upper[i] > share * within_) found.push_back(points[i]);
   return found;
+}
+
+EngineOptions simplify_engine(const EngineOptions& engine, double share) {
+  EngineOptions first = engine;
+  first.closest = true;
+  first.fine = engine.fine || kDeciding * without_margin(share, 1) < kFineTolerance;
+  return first;
 }
 
 }  // namespace vkh

@@ -64,7 +64,7 @@ class Search {
         limits_(limits),
         options_(options),
         start_(Clock::now()),
-        b_(solver.prepare(b)) {
+        b_((solver.make_ready(options.engine), solver.prepare(b))) {
     const double diagonal_a = diagonal_of(a).least();
     if (!options_.tolerance_is_absolute && diagonal_a > 0) {  // a fraction of A, not of its parts
       options_.tolerance = multiply_down(options_.tolerance, diagonal_a);

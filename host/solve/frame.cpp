@@ -248,7 +248,10 @@ StoragePlan store_in(const Frame& frame, const Mesh& mesh) {
   return with_delta(store_in(frame, mesh, false), frame, mesh);
 }
 
-void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low) {
+namespace {
+
+void convert(const StoragePlan& stored, const Mesh& mesh, VertexRange range, float* high,
+             float* low) {
   const Scale scale(stored.frame.exponent);
   const glm::dvec3 centre = stored.frame.centre;
   const auto scaled = [&](size_t v, int axis) {
@@ -268,13 +271,32 @@ void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, fl
       low[k] = halves.low;
     }
   };
-  for_each_range(mesh, [&](size_t, VertexRange range) {
-    if (stored.has_low) {
-      for (size_t v = range.begin; v < range.end; ++v) write_both(v);
-    } else {
-      for (size_t v = range.begin; v < range.end; ++v) write_high(v);
-    }
-  });
+  if (stored.has_low) {
+    for (size_t v = range.begin; v < range.end; ++v) write_both(v);
+  } else {
+    for (size_t v = range.begin; v < range.end; ++v) write_high(v);
+  }
+}
+
+}  // namespace
+
+void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low) {
+  if (stored.kept != nullptr) {
+    const size_t bytes = mesh.vertices.size() * 3 * sizeof(float);
+    copy_together(high, stored.kept->high.data(), bytes);
+    if (stored.has_low) copy_together(low, stored.kept->low.data(), bytes);
+    return;
+  }
+  for_each_range(mesh, [&](size_t, VertexRange range) { convert(stored, mesh, range, high, low); });
+}
+
+void keep_vertices(const Mesh& mesh, StoragePlan& stored) {
+  const size_t count = mesh.vertices.size(), floats = 3 * count;
+  auto made = std::make_shared<StoredVertices>();
+  made->high.resize(floats);
+  made->low.resize(stored.has_low ? floats : 0);
+  convert(stored, mesh, {0, count}, made->high.data(), made->low.data());
+  stored.kept = std::move(made);
 }
 
 StoredPoint store_point(const Frame& frame, const glm::dvec3& point) {

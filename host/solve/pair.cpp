@@ -60,6 +60,14 @@ std::function<float()> known_since(const Pair& pair) {
 
 }  // namespace
 
+// B's frame is B's alone, so that the answer does not depend on the A's before. B fills it; an A
+// up to four times as far out costs two of the 48 bits. Farther ones would lose the tolerance, not
+// the truth, and get a frame around both. A point has no size to choose a frame by.
+bool serves(const Frame& frame_of_b, const Box& box_b, const Box& box_a) {
+  const double extent = frame_of_b.extent(join(box_a, box_b));
+  return extent >= 0.5 && extent <= 4;
+}
+
 FileInterval to_files(const VkhReport& r, const Pair& pair) {
   const double base = static_cast<double>(r.base);
   const double lower = add_down(base, static_cast<double>(r.lowerAbove));

@@ -20,6 +20,9 @@ struct KeptMesh {
   ResidentMesh resident;
 };
 
+/// Whether the frame of a mesh B with that box serves an A with this one: PreparedMesh::serves().
+bool serves(const Frame& frame_of_b, const Box& box_b, const Box& box_a);
+
 /// A run's meshes as they are stored in one frame, and what is asked about them. Proof that any
 /// frame will do: the device
 /// encloses the stored meshes' h in the frame's units, whatever the frame, for coordinates up to

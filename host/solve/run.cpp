@@ -75,44 +75,22 @@ struct Runner::Submission {
   uint32_t waves;
 };
 
-Runner::Runner(const Device& device, const std::filesystem::path& cache_folder)
+Runner::Runner(const Device& device, std::shared_ptr<Contexts> contexts)
     : device_(device),
-      cache_(device, cache_folder),
+      contexts_(std::move(contexts)),
       submitter_(device),
       pool_(device),
       names_(Submitter::kTimestamps) {}
 
-void Runner::make_ready(uint32_t switches) {
-  const SerialGuard::Hold hold(guard_);
-  context_for(switches);
-}
-
-VkhContext Runner::context_for(uint32_t switches) {
-  const auto known = contexts_.find(switches);
-  if (known != contexts_.end()) return known->second.get();
-  const bool wide = (switches & kSwitchWide) != 0;
-  VkhContextCreateInfo info{};
-  info.size = sizeof(info);
-  info.device = device_.engine_info();
-  info.pipelineCache = cache_.handle();
-  info.flags = switches & kContextFlags;
-  info.deviceKind = wide ? VKH_DEVICE_KIND_WIDE : VKH_DEVICE_KIND_NARROW;
-  info.switches = (switches & ~(kSwitchWide | kContextFlags)) | VKH_SWITCH_NONE;
-  VkhContext context = nullptr;
-  check_engine(vkhCreateContext(&info, &context), "creating the pipelines");
-  ContextHandle kept(context, vkhDestroyContext);
-  cache_.save();
-  contexts_.emplace(switches, std::move(kept));
-  return context;
-}
-
 // If a mesh is too large to be bound, it is given by address, which gives the same bits.
-VkhContext Runner::context_for(uint32_t switches, std::span<const RunInput> inputs) {
-  const VkhContext context = context_for(switches);
+VkhContext Runner::context_for(uint32_t switches, std::span<const RunInput> inputs,
+                               ContextUse use) {
+  const VkhContext context = contexts_->get(switches, use);
   const bool fits = std::all_of(inputs.begin(), inputs.end(), [&](const RunInput& input) {
     return fits_bindings(context, input);
   });
-  return fits || !device_.has_addresses() ? context : context_for(switches | kSwitchByAddress);
+  return fits || !device_.has_addresses() ? context
+                                          : contexts_->get(switches | kSwitchByAddress, use);
 }
 
 // Pair buffers are kept for reuse, unless there is no memory beside those of an earlier run, or
@@ -160,10 +138,9 @@ void Runner::stamp(VkCommandBuffer commands, const char* name) {
 
 ResidentMesh Runner::build(const MeshData& b) {
   const SerialGuard::Hold hold(guard_);
-  // A BVH is the same whatever the switches: it is built with pipelines that runs need too.
   std::array<RunInput, 1> alone;
   alone[0].b = b;
-  context_ = context_for(default_switches(device_), alone);
+  context_ = context_for(default_switches(device_), alone, ContextUse::kHierarchy);
   ResidentMesh resident;
   buffers(1,
           [&](MemoryPolicy policy) { resident = buffers_[0]->take_resident(context_, b, policy); });
@@ -307,7 +284,8 @@ void Runner::find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBa
   const SerialGuard::Hold hold(guard_);
   std::array<RunInput, 1> alone;
   alone[0].b.mesh = &mesh;
-  context_ = context_for(default_switches(device_) | VKH_CONTEXT_CLOSEST, alone);
+  context_ =
+      context_for(default_switches(device_) | VKH_CONTEXT_CLOSEST, alone, ContextUse::kHierarchy);
   VkhClosestQuery query{};
   buffers(1, [&](MemoryPolicy) { query = buffers_[0]->take_points(batch); });
   const VkhHierarchy hierarchy = b.view();

@@ -2,25 +2,21 @@
 // frame and reads its report.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <span>
 
 #include "host/base/serial_guard.h"
-#include "host/gpu/pipeline_cache.h"
+#include "host/solve/contexts.h"
 #include "host/solve/device_cells.h"
 #include "host/solve/pair_buffers.h"
 
 namespace vkh {
 
-/// Pipelines for one set of switches; destroyed with the handle.
-using ContextHandle = std::unique_ptr<VkhContext_T, void (*)(VkhContext)>;
-
-/// Keeps contexts and buffers between runs. Calls from several threads run one after the other.
+/// Keeps buffers between runs. Calls from several threads run one after the other.
 class Runner {
  public:
-  Runner(const Device& device, const std::filesystem::path& cache_folder);
-  void make_ready(uint32_t switches);
+  /// Runners of one device may share its contexts.
+  Runner(const Device& device, std::shared_ptr<Contexts> contexts);
   ResidentMesh build(const MeshData& b);
   /// Runs all of them side by side (vkhCmdRunTasks), each until it is done. They have the same
   /// switches, `multiwave` and `stage_times`. Several runs have one stage, "solve", for all of them
@@ -31,8 +27,8 @@ class Runner {
 
  private:
   struct Submission;
-  VkhContext context_for(uint32_t switches);
-  VkhContext context_for(uint32_t switches, std::span<const RunInput> inputs);
+  VkhContext context_for(uint32_t switches, std::span<const RunInput> inputs,
+                         ContextUse use = ContextUse::kRun);
   void take_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs);
   void buffers(size_t count, const std::function<void(MemoryPolicy)>& take);
   VkCommandBuffer begin();
@@ -49,8 +45,7 @@ class Runner {
 
   const Device& device_;
   SerialGuard guard_;
-  PipelineCache cache_;
-  std::map<uint32_t, ContextHandle> contexts_;
+  std::shared_ptr<Contexts> contexts_;
   Submitter submitter_;
   MemoryPool pool_;  // of buffers_, where there are several
   std::vector<std::unique_ptr<PairBuffers>> buffers_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -55,7 +56,8 @@ Status status_of(const VkhReport& r, const Report& out, Status ended) {
 }  // namespace
 
 struct Solver::Impl {
-  Impl(Device& d, const std::filesystem::path& cache) : device(d), runner(d, cache) {}
+  Impl(Device& d, std::shared_ptr<Contexts> all)
+      : device(d), contexts(std::move(all)), runner(d, contexts) {}
   std::vector<Report> distances(std::span<const PairView> meshes,
                                 const std::vector<SolveOptions>& options,
                                 const RunHooks* hooks = nullptr);
@@ -63,12 +65,17 @@ struct Solver::Impl {
                                           Clock::time_point start);
   std::vector<Report> solve(const std::vector<Pair>& pairs, Clock::time_point start);
   Device& device;
+  const std::shared_ptr<Contexts> contexts;
   Runner runner;
 };
 
 Solver::Solver(Device& device, const std::filesystem::path& cache_folder) {
   const FloatEnvironment ours;
-  impl_ = std::make_unique<Impl>(device, cache_folder);
+  impl_ = std::make_unique<Impl>(device, std::make_shared<Contexts>(device, cache_folder));
+}
+Solver::Solver(SharesPipelines, const Solver& other) {
+  const FloatEnvironment ours;
+  impl_ = std::make_unique<Impl>(other.impl_->device, other.impl_->contexts);
 }
 Solver::~Solver() = default;
 const Device& Solver::device() const { return impl_->device; }
@@ -239,7 +246,7 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::t
 
 void Solver::make_ready(const EngineOptions& options) {
   const FloatEnvironment ours;
-  impl_->runner.make_ready(switches_of(options, impl_->device) & ~kSwitchMultiwave);
+  impl_->contexts->get(switches_of(options, impl_->device) & ~kSwitchMultiwave);
 }
 
 namespace {
@@ -271,11 +278,14 @@ Framed framed_alone(const PairView& m) {
   return f;
 }
 
-Framed framed_by(const KeptMesh& kept, const Mesh& a) {
+// Nothing if B's frame does not serve A. A pair that was framed before is in that frame if it does.
+std::optional<Framed> framed_by(const KeptMesh& kept, const PairView& m) {
+  const Box box_a = m.framed != nullptr ? m.framed->box_a : bounding_box(m.a);
+  if (!serves(kept.frame, kept.box, box_a)) return std::nullopt;
   Framed f{.displacement_b = kept.displacement, .has_low_b = kept.has_low, .kept = &kept};
   f.pair.frame = kept.frame;
-  f.pair.a = store_in(kept.frame, a);
-  f.pair.box_a = bounding_box(a);
+  f.pair.a = m.framed != nullptr ? m.framed->a : store_in(kept.frame, m.a);
+  f.pair.box_a = box_a;
   f.pair.box_b = kept.box;
   return f;
 }
@@ -305,8 +315,9 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> views,
   for (const PairView& m : views) bytes += m.framed ? 0 : mesh_bytes(m.a) + mesh_bytes(m.b);
   const auto frame = [&](size_t i) {
     const PairView& m = views[i];
-    const bool is_served = m.prepared != nullptr && m.prepared->serves(m.a);
-    framed[i] = is_served ? framed_by(*m.prepared->impl_, m.a) : framed_alone(m);
+    std::optional<Framed> served;
+    if (m.prepared != nullptr) served = framed_by(*m.prepared->impl_, m);
+    framed[i] = served ? std::move(*served) : framed_alone(m);
   };
   for_each_index(views.size(), frame, threads_for(bytes));
 
@@ -402,13 +413,9 @@ ClosestPoints Solver::closest(const Mesh& b, std::span<const DVec3> points,
                              {points, heard_outside(goes_on, ours)});
 }
 
-// B's frame is B's alone, so that the answer does not depend on the A's before. B fills it; an A
-// up to four times as far out costs two of the 48 bits. Farther ones would lose the tolerance, not
-// the truth, and get a frame around both. A point has no size to choose a frame by.
 bool PreparedMesh::serves(const Mesh& a) const {
   const FloatEnvironment ours;
-  const double extent = impl_->frame.extent(join(bounding_box(a), impl_->box));
-  return extent >= 0.5 && extent <= 4;
+  return vkh::serves(impl_->frame, impl_->box, bounding_box(a));
 }
 
 Report Solver::distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options) {
@@ -442,7 +449,7 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
     }
     sought.push_back(i);
     back.push_back({.a = b, .b = a});
-    if (pairs[i].framed != nullptr) {
+    if (pairs[i].framed != nullptr && pairs[i].prepared == nullptr) {
       framed.push_back(pairs[i].framed->reversed());
       back.back().framed = &framed.back();
     }
@@ -479,7 +486,6 @@ void with_cells(Solver& solver, const PairView& pair, const SolveOptions& option
   SolveOptions run = options;
   run.limit = {};
   run.known_lower = 0;
-  run.engine.coverage = false;
   run.wave_limit = 1;
   run.time_limit_s = std::numeric_limits<double>::infinity();
   const PairView alone{.a = pair.a, .b = pair.b, .prepared = pair.prepared};

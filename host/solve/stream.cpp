@@ -8,6 +8,7 @@
 
 #include "host/base/float_environment.h"
 #include "host/solve/delivery.h"
+#include "host/solve/early_frames.h"
 #include "host/solve/worker.h"
 #include "vkhausdorff/error.h"
 
@@ -45,21 +46,6 @@ class OpenDevice {
  private:
   std::unique_ptr<Device> device_;
 };
-
-// Checks and frames the meshes on the thread that pushes, which leaves workers more time for their
-// device. Nothing: the worker does both, and finds the pair's error if there is one.
-std::optional<FramedPair> framed_early(const StreamPair& pair) {
-  const bool is_known = pair.a != nullptr && pair.b != nullptr && !pair.before;
-  if (!is_known || pair.shares_b) return std::nullopt;
-  const FloatEnvironment ours;
-  try {
-    check_mesh(*pair.a);
-    check_mesh(*pair.b);
-    return frame_pair(*pair.a, *pair.b);
-  } catch (...) {
-    return std::nullopt;
-  }
-}
 
 // A device that is lost again and again without an answer between is not opened any more.
 constexpr int kMostReopened = 3;
@@ -146,7 +132,7 @@ struct PairStream::Impl {
     std::vector<std::thread> others;
     try {
       for (size_t i = 1; i < lanes.shape.lanes; ++i) {
-        solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
+        solvers.push_back(std::make_unique<Solver>(Solver::SharesPipelines{}, *solvers[0]));
         others.emplace_back([&, solver = solvers.back().get()] { run(*solver); });
       }
     } catch (...) {  // goes on with fewer workers
@@ -209,6 +195,7 @@ struct PairStream::Impl {
   const Clock::time_point start = Clock::now();
   const StreamOptions options;
   Delivery delivery;
+  EarlyFrames frames;
   PairQueue queue;
   WorkerShare share;
   std::atomic<size_t> delivered = 0;
@@ -229,8 +216,9 @@ PairStream::PairStream(StreamOptions options, std::function<void(StreamResult&&)
 PairStream::~PairStream() = default;
 
 bool PairStream::push(StreamPair pair) {
-  const std::optional<FramedPair> framed = framed_early(pair);
-  if (impl_->queue.put({.pair = std::move(pair), .tries = 0, .framed = framed})) return true;
+  std::optional<FramedPair> framed = impl_->frames.of(pair);
+  if (impl_->queue.put({.pair = std::move(pair), .tries = 0, .framed = std::move(framed)}))
+    return true;
   impl_->check_alive();
   return false;
 }

@@ -66,6 +66,7 @@ uint32_t switches_of(const EngineOptions& options, const Device& device) {
   for (const std::string& name : options.disabled) on &= ~switch_bit(name);
   if (options.coverage) on |= VKH_CONTEXT_COVERAGE;
   if (options.cells) on |= VKH_CONTEXT_CELLS;
+  if (options.closest) on |= VKH_CONTEXT_CLOSEST;
   if (options.fine) on |= VKH_CONTEXT_FINE;
   return options.certified ? on : on | VKH_SWITCH_UNCERTIFIED;
 }

@@ -155,6 +155,34 @@ size_t threads_of_context(uint32_t most) {
   return seen.size();
 }
 
+// The values by which a context specialises its kernels, and the number of these.
+struct Specialised {
+  std::set<std::string> values;
+  size_t kernels = 0;
+};
+Specialised specialised_by(uint32_t flags) {
+  VkhContextCreateInfo info = create_info(flags, VKH_DEVICE_KIND_NARROW);
+  info.threads = 1;
+  static Specialised seen;
+  static PFN_vkCreateComputePipelines create = nullptr;
+  seen = {};
+  const PFN_vkCreateComputePipelines noting =
+      [](VkDevice device, VkPipelineCache cache, uint32_t count,
+         const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* callbacks,
+         VkPipeline* pipelines) {
+        const VkSpecializationInfo& with = *infos->stage.pSpecializationInfo;
+        seen.values.emplace(static_cast<const char*>(with.pData), with.dataSize);
+        ++seen.kernels;
+        return create(device, cache, count, infos, callbacks, pipelines);
+      };
+  create = reinterpret_cast<PFN_vkCreateComputePipelines>(Replaced::replace(
+      info.device, "vkCreateComputePipelines", reinterpret_cast<PFN_vkVoidFunction>(noting)));
+  VkhContext context = nullptr;
+  REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
+  vkhDestroyContext(context);
+  return seen;
+}
+
 // Names by type, which a context gave its objects.
 std::map<VkObjectType, std::set<std::string>> names_of_context() {
   VkhContextCreateInfo info = create_info(0, VKH_DEVICE_KIND_NARROW);
@@ -205,6 +233,18 @@ TEST_CASE("threads that create pipelines can be limited, forbidden or given") {
   REQUIRE(vkhCreateContext(&info, &context) == VKH_SUCCESS);
   CHECK(given > 0);
   vkhDestroyContext(context);
+}
+
+TEST_CASE("flags that add kernels leave the others as a driver has compiled them") {
+  const Specialised plain = specialised_by(0);
+  CHECK(plain.values.size() == 1);
+  for (const uint32_t flag : {VKH_CONTEXT_CELLS, VKH_CONTEXT_CLOSEST, VKH_CONTEXT_CHECK_INPUT}) {
+    CAPTURE(flag);
+    const Specialised more = specialised_by(flag);
+    CHECK(more.values == plain.values);
+    CHECK(more.kernels == plain.kernels + 1);
+  }
+  CHECK(specialised_by(VKH_CONTEXT_FINE).values != plain.values);
 }
 
 TEST_CASE("extensions are those of the two that the device has") {

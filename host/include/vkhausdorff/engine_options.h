@@ -20,6 +20,8 @@ struct EngineOptions {
   /// Takes the pipelines that a survey needs (VKH_CONTEXT_CELLS), so that one of the same pair
   /// creates no others.
   bool cells = false;
+  /// Takes the pipelines that Solver::closest() needs (VKH_CONTEXT_CLOSEST), for the same reason.
+  bool closest = false;
   bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
   /// false: BVH and solution alone are timed, as Times has them; each timestamp between stages
   /// waits for what is before it, which all together costs an H200 2 %.

@@ -56,6 +56,10 @@ struct Simplified {
 /// InputError and DeviceError as Solver does. Time is asked between candidates and within runs.
 Simplified simplify(Solver& solver, const Mesh& a, const SimplifyOptions& options);
 
+/// The pipelines for Solver::make_ready() that simplify() begins with, where `solve` has this
+/// `engine` and the limit is `share` of A's diagonal: to be made while A is read.
+EngineOptions simplify_engine(const EngineOptions& engine, double share);
+
 /// Encloses the distance of `b` from `a` to a thousandth of the limit, and judges it: for a mesh
 /// that was written and read back. `options` are those of simplify(); progress is not called.
 Deviation measure_deviation(Solver& solver, const Mesh& a, const Mesh& b,

@@ -43,8 +43,9 @@ struct PairView {
   const PreparedMesh* prepared = nullptr;  ///< b on the device; its answer is that of distance()
   const SolveOptions* options = nullptr;   ///< the pair's own; null: those of the call. `engine`
                                            ///< and memory should be the same for all
-  /// frame_pair(a, b) of frame.h, made before, on any thread, for two meshes that check_mesh() let
-  /// pass; null: the call checks and frames them.
+  /// frame_pair(a, b) of frame.h, or with a prepared `b` whose frame serves `a` both in that frame,
+  /// made before, on any thread, for two meshes that check_mesh() let pass; null: the call checks
+  /// and frames them.
   const FramedPair* framed = nullptr;
 };
 
@@ -59,6 +60,10 @@ class Solver {
   /// `cache_folder`: where pipelines are kept between processes, in files of their own for each
   /// driver and build; empty: nowhere.
   explicit Solver(Device& device, const std::filesystem::path& cache_folder = {});
+  /// A solver on the device of another, with buffers of its own, that shares its pipelines: those
+  /// that either makes, both have.
+  struct SharesPipelines {};
+  Solver(SharesPipelines, const Solver& other);
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;

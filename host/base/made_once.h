@@ -1,0 +1,62 @@
+// Values by key, each made once, by whichever thread asks first.
+#pragma once
+
+#include <chrono>
+#include <future>
+#include <map>
+#include <mutex>
+
+namespace vkh {
+
+/// Threads may share it.
+template <class Key, class Value>
+class MadeOnce {
+ public:
+  /// Returns what make() returned for this key, or throws what it threw. A thread that asks while
+  /// another makes it waits.
+  template <class Make>
+  Value get(const Key& key, const Make& make) {
+    std::promise<Value> mine;
+    const std::shared_future<Value> value = known_or(key, mine);
+    if (value.valid()) return value.get();
+    try {
+      Value made = make();
+      mine.set_value(made);
+      return made;
+    } catch (...) {
+      mine.set_exception(std::current_exception());
+      throw;
+    }
+  }
+
+  /// Forgets a value, which threads that wait for it get all the same.
+  void forget(const Key& key) {
+    const std::lock_guard lock(mutex_);
+    values_.erase(key);
+  }
+  /// Forgets the values of which this is true. No value may be an error.
+  template <class Is>
+  void forget_where(const Is& is) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(values_, [&](const auto& one) {
+      const bool is_made =
+          one.second.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+      return is_made && is(one.second.get());
+    });
+  }
+
+ private:
+  /// Returns the value of another thread; nothing: `mine` is that of this key from now on.
+  std::shared_future<Value> known_or(const Key& key, std::promise<Value>& mine) {
+    const std::lock_guard lock(mutex_);
+    const auto [known, is_new] = values_.try_emplace(key);
+    if (!is_new) return known->second;
+    known->second = mine.get_future().share();
+    return {};
+  }
+
+  std::mutex mutex_;
+  std::map<Key, std::shared_future<Value>> values_;
+};
+
+}  // namespace vkh
