@@ -1,6 +1,9 @@
 #include "host/native/face_tree.h"
 
+#include <bit>
 #include <limits>
+
+#include "host/base/float_environment.h"
 
 namespace vkh::native {
 namespace {
@@ -15,10 +18,6 @@ float float_above(double x) {
   return f + (std::fabs(f) * 0x1p-23f + std::numeric_limits<float>::min());
 }
 
-using Lanes = std::array<float, 4>;
-
-// The squared distance of a box from a point between `below` and `above`, in four lanes, which
-// compilers make one vector of.
 struct FloatPoint {
   std::array<float, 3> below, above;
   explicit FloatPoint(const vec3& p)
@@ -29,21 +28,46 @@ struct FloatPoint {
 // Six roundings of a square and its sums, and the one of a distance that it is compared with.
 constexpr float kRoundings = 1 - 0x1p-20f;
 
+// The squared distances of a node's boxes from the point, rounded down, and a bit for each that is
+// within reach. Both versions do the same operations.
+struct Reached {
+  alignas(16) std::array<float, 4> distance2;
+  unsigned lanes;
+};
+
+#ifdef VKH_SSE
 template <class Node>
-Lanes box_distances2(const Node& node, const FloatPoint& p) {
-  Lanes sum{};
+Reached reached_boxes(const Node& node, const FloatPoint& p, float reach2) {
+  __m128 sum = _mm_setzero_ps();
   for (size_t axis = 0; axis < 3; ++axis) {
-    for (size_t i = 0; i < 4; ++i) {
+    const __m128 under = _mm_sub_ps(_mm_load_ps(&node.lo[axis][0]), _mm_set1_ps(p.above[axis]));
+    const __m128 over = _mm_sub_ps(_mm_set1_ps(p.below[axis]), _mm_load_ps(&node.hi[axis][0]));
+    const __m128 d = _mm_max_ps(_mm_max_ps(under, over), _mm_setzero_ps());
+    sum = _mm_add_ps(sum, _mm_mul_ps(d, d));
+  }
+  Reached r;
+  sum = _mm_mul_ps(sum, _mm_set1_ps(kRoundings));
+  _mm_store_ps(r.distance2.data(), sum);
+  r.lanes = static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(sum, _mm_set1_ps(reach2))));
+  return r;
+}
+#else
+template <class Node>
+Reached reached_boxes(const Node& node, const FloatPoint& p, float reach2) {
+  Reached r{{}, 0};
+  for (size_t i = 0; i < 4; ++i) {
+    for (size_t axis = 0; axis < 3; ++axis) {
       const float under = node.lo[axis][i] - p.above[axis];
       const float over = p.below[axis] - node.hi[axis][i];
-      float d = under > over ? under : over;
-      d = d > 0.0f ? d : 0.0f;
-      sum[i] += d * d;
+      const float d = std::max(std::max(under, over), 0.0f);
+      r.distance2[i] += d * d;
     }
+    r.distance2[i] *= kRoundings;
+    r.lanes |= (r.distance2[i] <= reach2 ? 1u : 0u) << i;
   }
-  for (float& s : sum) s *= kRoundings;
-  return sum;
+  return r;
 }
+#endif
 
 }  // namespace
 
@@ -149,12 +173,11 @@ struct Waiting {
 
 // Puts those of a node's children that are in reach on the stack, the nearest last.
 template <class Node, class Stack>
-void push_children(const Node& node, const Lanes& distance2, float reach2, Stack& stack,
-                   size_t& depth) {
+void push_children(const Node& node, const Reached& reached, Stack& stack, size_t& depth) {
   const size_t first = depth;
-  for (size_t i = 0; i < 4; ++i) {
-    if (!(distance2[i] <= reach2)) continue;
-    const Waiting next{distance2[i], node.child[i]};
+  for (unsigned left = reached.lanes; left != 0; left &= left - 1) {
+    const auto i = static_cast<size_t>(std::countr_zero(left));
+    const Waiting next{reached.distance2[i], node.child[i]};
     size_t at = depth++;
     for (; at > first && stack[at - 1].distance2 < next.distance2; --at) stack[at] = stack[at - 1];
     stack[at] = next;
@@ -170,7 +193,7 @@ Nearest FaceTree::nearest(const vec3& p, Nearest best) const {
   float reach2 = float_above(best.distance2);
   for (uint32_t child = 0;;) {
     if ((child & kLeafFlag) == 0) {
-      push_children(nodes_[child], box_distances2(nodes_[child], point), reach2, stack, depth);
+      push_children(nodes_[child], reached_boxes(nodes_[child], point, reach2), stack, depth);
     } else {
       const uint32_t begin = child & ((1u << kCountShift) - 1);
       const uint32_t count = ((child & ~kLeafFlag) >> kCountShift) + 1;

@@ -41,7 +41,7 @@ class FaceTree {
   /// Boxes of 2^28 triangles, halved twice a level, leave three of four behind.
   static constexpr size_t kStack = 64;
 
-  struct Node {
+  struct alignas(16) Node {
     std::array<std::array<float, kWide>, 3> lo, hi;
     std::array<uint32_t, kWide> child;
   };
