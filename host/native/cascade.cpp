@@ -3,8 +3,6 @@
 namespace vkh::native {
 namespace {
 
-constexpr double kUnbounded = 1e30;
-
 bool has_corner(const Corners& t, const vec3& p) {
   const auto is = [&p](const vec3& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
   return is(t.a) || is(t.b) || is(t.c);
@@ -62,30 +60,6 @@ Patch Family::patch(const Child& child) const {
   return make_patch(point_[child.corner[0]], point_[child.corner[1]], point_[child.corner[2]]);
 }
 
-// The bounds from single triangles: of its own corners first, since most children need no more.
-void Family::narrow_by_single(const Child& child, const Patch& t, size_t own_count,
-                              double threshold, Verdict& v, size_t& best) {
-  vec3 own(kUnbounded, kUnbounded, kUnbounded);
-  double ha = kUnbounded;
-  const auto narrow = [&](double bound, Close by) {
-    const double kept = kept_bound(bound, face_.slack);
-    if (kept < v.upper) v = {kept, by, v.centre};
-  };
-  for (size_t n = 0; n < count_; ++n) {
-    const vec3 d = distances(order_[n], child);
-    own = min(own, d);
-    if (bound_single(d) < ha) {
-      ha = bound_single(d);
-      best = order_[n];
-    }
-    narrow(ha, own_count == 1 ? kByExact : kByHa);
-    if (n + 1 != own_count && n + 1 != count_) continue;
-    narrow(bound_u1(t, own), kByU1);
-    narrow(bound_u2(t, own), kByU2);
-    if (v.upper <= threshold) return;
-  }
-}
-
 // Whether the point lies above the nearer of two surfaces and beside the other.
 bool Family::is_beside(size_t i, size_t j, uint32_t point) const {
   const Known &s = known_[i], &r = known_[j];
@@ -109,24 +83,36 @@ vec3 Family::sides(size_t i, size_t j, const Child& child) const {
   return {side[0], side[1], side[2]};
 }
 
-// u3, for pairs that may close the child: a pair cannot beat the better of its two distances at the
-// worst corner.
-void Family::narrow_by_pairs(const Child& child, const Patch& t, double threshold, Verdict& v) {
-  for (size_t i = 1; i < count_; ++i) {
-    const vec3 di = distances(i, child);
-    for (size_t j = 0; j < i; ++j) {
-      const vec3 dj = distances(j, child);
-      const double at_best = bound_nearer(di, dj);
-      if (kept_bound(at_best, face_.slack) >= v.upper) continue;
-      const Cut cut = cut_by(di - dj);
-      if (cut.none) continue;
-      const double at_cut =
-          bound_cut(t, cut, sides(i, j, child), known_[i].surface, known_[j].surface);
-      const double u3 = kept_bound(max(at_best, at_cut), face_.slack);
-      if (u3 < v.upper) v = {u3, kByU3, v.centre};
-      if (v.upper <= threshold) return;
-    }
+// u3 of two triangles. A pair that cannot close the child is left out: it cannot beat the better of
+// its two distances at the worst corner.
+void Family::narrow_by_pair(size_t i, size_t j, const Trial& trial, Verdict& v) {
+  const vec3 di = distances(i, trial.child), dj = distances(j, trial.child);
+  const double at_best = bound_nearer(di, dj);
+  if (kept_bound(at_best, face_.slack) > trial.threshold) return;
+  const Cut cut = cut_by(di - dj);
+  if (cut.none) return;
+  const double at_cut =
+      bound_cut(trial.t, cut, sides(i, j, trial.child), known_[i].surface, known_[j].surface);
+  narrow(max(at_best, at_cut), kByU3, v);
+}
+
+void Family::narrow(double bound, Close by, Verdict& v) const {
+  const double kept = kept_bound(bound, face_.slack);
+  if (kept < v.upper) v = {kept, by, v.centre};
+}
+
+// Takes the triangle at a place of the order in: alone, and with each one before it.
+void Family::narrow_by(size_t n, Trial& trial, Verdict& v) {
+  const size_t k = order_[n];
+  const vec3 d = distances(k, trial.child);
+  trial.own = min(trial.own, d);
+  if (bound_single(d) < trial.ha) {
+    trial.ha = bound_single(d);
+    trial.best = k;
+    narrow(trial.ha, n == 0 ? kByExact : kByHa, v);
   }
+  for (size_t m = 0; m < n && v.upper > trial.threshold; ++m)
+    narrow_by_pair(k, order_[m], trial, v);
 }
 
 uint32_t Family::ask_centre(const Child& child, size_t best, Gain& gain) const {
@@ -139,7 +125,29 @@ uint32_t Family::ask_centre(const Child& child, size_t best, Gain& gain) const {
 
 Verdict Family::bound(const Child& child, double upper, double threshold, Gain& gain) {
   ++gain.candidates;
-  const Patch t = patch(child);
+  const size_t own_count = put_own_first(child);
+  Trial trial{child, patch(child), threshold};
+  Verdict v{upper, kByRisen, kNone};
+  for (size_t n = 0; n < count_; ++n) {
+    narrow_by(n, trial, v);
+    if (n + 1 == own_count) {
+      narrow(bound_u1(trial.t, trial.own), kByU1, v);
+      narrow(bound_u2(trial.t, trial.own), kByU2, v);
+    }
+    if (v.upper <= threshold) return v;
+  }
+  v.centre = ask_centre(child, trial.best, gain);
+  const size_t shared = count_;
+  if (know(v.centre) == shared) {
+    order_[shared] = shared;
+    narrow_by(shared, trial, v);
+  }
+  count_ = shared;  // the next child does not know this one's own
+  return v;
+}
+
+// A child's own triangles come first, since most children need no more. Returns how many they are.
+size_t Family::put_own_first(const Child& child) {
   size_t own_count = 0;
   for (size_t k = 0; k < count_; ++k) order_[k] = k;
   for (const uint32_t i : child.corner) {
@@ -147,19 +155,7 @@ Verdict Family::bound(const Child& child, double upper, double threshold, Gain& 
     const auto place = static_cast<size_t>(mine - order_.begin());
     if (place >= own_count) std::swap(order_[own_count++], order_[place]);
   }
-  Verdict v{upper, kByRisen, kNone};
-  size_t best = order_[0];
-  narrow_by_single(child, t, own_count, threshold, v, best);
-  if (v.upper <= threshold) return v;
-  v.centre = ask_centre(child, best, gain);
-  const size_t shared = count_;
-  if (know(v.centre) == shared) {
-    order_[shared] = shared;
-    narrow_by_single(child, t, 0, threshold, v, best);
-  }
-  if (v.upper > threshold) narrow_by_pairs(child, t, threshold, v);
-  count_ = shared;  // the next child does not know this one's own
-  return v;
+  return own_count;
 }
 
 bool Family::is_shared(const UVec3& face_of_a, Gain& gain) const {

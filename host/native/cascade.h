@@ -44,9 +44,14 @@ class Family {
     Surface surface;
     std::array<double, kPoints> distance;
   };
-  struct Corner3 {
-    std::array<double, 3> distance;
-    std::array<bool, 3> inside;
+  /// A child on its way through the cascade.
+  struct Trial {
+    const Child& child;
+    Patch t;
+    double threshold;
+    vec3 own{1e30, 1e30, 1e30};  ///< its corners' distances, each from the nearest triangle so far
+    double ha = 1e30;
+    size_t best = 0;  ///< whose ha that is
   };
 
   size_t know(uint32_t place);
@@ -56,9 +61,10 @@ class Family {
   vec3 sides(size_t i, size_t j, const Child& child) const;
   bool is_beside(size_t i, size_t j, uint32_t point) const;
   uint32_t ask_centre(const Child& child, size_t best, Gain& gain) const;
-  void narrow_by_single(const Child& child, const Patch& t, size_t own_count, double threshold,
-                        Verdict& v, size_t& best);
-  void narrow_by_pairs(const Child& child, const Patch& t, double threshold, Verdict& v);
+  size_t put_own_first(const Child& child);
+  void narrow(double bound, Close by, Verdict& v) const;
+  void narrow_by(size_t n, Trial& trial, Verdict& v);
+  void narrow_by_pair(size_t i, size_t j, const Trial& trial, Verdict& v);
 
   const Problem& problem_;
   const Face& face_;
