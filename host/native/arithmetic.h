@@ -20,7 +20,8 @@
 
 #define VKH_LIB_BEGIN namespace vkh::native {
 #define VKH_LIB_END }
-#define VKH_FN inline
+// A surface is 300 bytes, which a call copies.
+#define VKH_FN [[gnu::always_inline]] inline
 #define VKH_OUT(type) type&
 #define VKH_PRECISE
 
