@@ -27,7 +27,7 @@ inline constexpr double kCornerError = 2.0 * kUlp;
 
 inline Face make_face(const vec3& a, const vec3& b, const vec3& c) {
   Face f{.a = a, .ab = b - a, .ac = c - a, .slack = 0};
-  f.slack = kCornerError * max(norm_up(f.ab), norm_up(f.ac)) + kTiny;
+  f.slack = kCornerError * max(norm_up(f.ab), norm_up(f.ac));
   return f;
 }
 

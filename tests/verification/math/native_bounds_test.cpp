@@ -145,6 +145,8 @@ TEST_CASE("round_up and round_down take n kUlp and their own roundings") {
     REQUIRE(Rational(round_up(x, n)) * (1 - error) >= Rational(x));
     const double down = round_down(x, n);
     REQUIRE((down == 0 || Rational(down) * (1 + error) <= Rational(x)));
+    const double y = std::fabs(hard_double(random, -600, 2));
+    REQUIRE(Rational(kept_bound(x, y)) >= Rational(x) + Rational(y));
     REQUIRE(Rational(raised(x)) >= Rational(x) * (1 + Rational(0x1p-52)));
     REQUIRE(Rational(lowered(x)) <= Rational(x) * (1 - Rational(0x1p-52)));
   }
@@ -279,6 +281,60 @@ TEST_CASE("the distance of a sample from a surface is rounded down") {
     tight += d >= vkh::test::sqrt_near(squared) - 0x1p-40 ? 1 : 0;
   }
   CHECK(tight >= case_count() - case_count() / 100);
+}
+
+// Whether bound >= d + sqrt(squared).
+bool covers_sum(double bound, double d, const Rational& squared) {
+  const Rational left = Rational(bound) - Rational(d);
+  return left >= 0 && left * left >= squared;
+}
+
+Rational squared_enclosing_radius(const Point& ab, const Point& ac) {
+  const Rational c2 = square(ab), b2 = square(ac), a2 = square(ac - ab);
+  const Rational longest = std::max(a2, std::max(b2, c2));
+  if (2 * longest >= a2 + b2 + c2) return longest / 4;
+  const Rational along = dot(ab, ac);
+  return a2 * b2 * c2 / (4 * (b2 * c2 - along * along));
+}
+
+TEST_CASE("u1 and u2 are rounded up for the part and the distances as given") {
+  Random random(11);
+  for (uint64_t i = 0; i < case_count(); ++i) {
+    const Corners t = hard_corners(random);
+    const Patch patch = make_patch(two(t.a), two(t.b), two(t.c));
+    const double size = std::ldexp(1.0, -static_cast<int>(random.below(30)));
+    const vec3 d(size * random.unit(), size * random.unit(), size * random.unit());
+    const Point a = point(t.a), b = point(t.b), c = point(t.c);
+    const Rational ab = square(b - a), bc = square(c - b), ca = square(a - c);
+    const double u1 = bound_u1(patch, d);
+    REQUIRE((covers_sum(u1, d.x, std::max(ab, ca)) || covers_sum(u1, d.y, std::max(ab, bc)) ||
+             covers_sum(u1, d.z, std::max(bc, ca))));
+    const Rational radius2 = squared_enclosing_radius(b - a, c - a);
+    REQUIRE(covers(enclosing_radius_up(t), radius2));
+    REQUIRE(covers_sum(bound_u2(patch, d), max3(d), radius2));
+  }
+}
+
+TEST_CASE("a separating plane's distance is rounded down, for corners off by the slack") {
+  Random random(12);
+  for (uint64_t i = 0; i < case_count(); ++i) {
+    Surface s;
+    s.at = hard_corners(random);
+    s.base = 0;
+    s.slack = random.below(2) == 0 ? 0.0 : std::ldexp(1.0, -static_cast<int>(random.below(60)));
+    const uint32_t kind = random.below(3);
+    vec3 r = with_low_bits(random, random.direction());
+    if (kind == 0) r = -s.at.a;
+    if (kind == 1) r = closest_point(vec3(0, 0, 0), s.at).offset;
+    const double down = coarse_distance_down(s, r);
+    if (!(down > 0)) continue;
+    const Rational claim = (Rational(down) + Rational(s.slack)) * (Rational(down) + Rational(s.slack));
+    for (const vec3& corner : {s.at.a, s.at.b, s.at.c}) {
+      const Rational along = dot(point(-corner), point(r));
+      REQUIRE(along >= 0);
+      REQUIRE(claim * square(point(r)) <= along * along);
+    }
+  }
 }
 
 TEST_CASE("the bounds over a part hold at its exact points") {
