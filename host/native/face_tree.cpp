@@ -159,8 +159,10 @@ void FaceTree::set_child(std::vector<Item>& items, uint32_t node, uint32_t lane,
     nodes_[node].hi[axis][lane] = box.hi[axis];
   }
   uint32_t child = kNone;
-  if (count > kLeaf) child = build(items, range);
-  else if (count > 0) child = kLeafFlag | (count - 1) << kCountShift | range.begin;
+  if (count > kLeaf)
+    child = build(items, range);
+  else if (count > 0)
+    child = kLeafFlag | (count - 1) << kCountShift | range.begin;
   nodes_[node].child[lane] = child;
 }
 

@@ -39,8 +39,7 @@ template <class Work>
 std::vector<Levels::Piece> Levels::in_pieces(size_t count, size_t size, const Work& work) {
   std::vector<Piece> pieces((count + size - 1) / size);
   for_each_index(
-      pieces.size(),
-      [&](size_t i) { work(pieces[i], i * size, std::min((i + 1) * size, count)); },
+      pieces.size(), [&](size_t i) { work(pieces[i], i * size, std::min((i + 1) * size, count)); },
       options_.threads);
   return pieces;
 }
@@ -101,8 +100,8 @@ void Levels::bound_face(Piece& piece, uint32_t f) const {
   const Child child{whole, {0, 1, 2}};
   const Verdict verdict = family.bound(child, 1e30, threshold(), piece.gain);
   if (verdict.upper <= threshold()) return piece.gain.close(verdict.upper, verdict.by);
-  piece.open.push_back({whole, f, {near[0].place, near[1].place, near[2].place}, verdict.centre,
-                        verdict.upper});
+  piece.open.push_back(
+      {whole, f, {near[0].place, near[1].place, near[2].place}, verdict.centre, verdict.upper});
 }
 
 // The candidates that a level refines are left in open_, and those that wait are returned.
@@ -173,8 +172,11 @@ void Levels::bound_children(Piece& piece, const Split& s) const {
     if (v.upper <= threshold()) {
       piece.gain.close(v.upper, v.by);
     } else {
-      piece.open.push_back({child.at, parent.face, {near[corner.x], near[corner.y], near[corner.z]},
-                            v.centre, v.upper});
+      piece.open.push_back({child.at,
+                            parent.face,
+                            {near[corner.x], near[corner.y], near[corner.z]},
+                            v.centre,
+                            v.upper});
     }
   }
 }

@@ -15,8 +15,8 @@ class Levels {
   /// `tolerance`: how far above the best sample candidates are closed, in the frame.
   Levels(const Problem& problem, double tolerance, const NativeOptions& options);
 
-  void start();           ///< A's vertices, and then its faces whole
-  void advance();         ///< one level
+  void start();    ///< A's vertices, and then its faces whole
+  void advance();  ///< one level
   bool is_over() const { return open_.empty(); }
 
   const Gain& total() const { return total_; }

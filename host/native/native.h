@@ -11,7 +11,7 @@
 namespace vkh::native {
 
 struct NativeOptions {
-  double tolerance = 1e-6;             ///< of the least diagonal of A, or in the files' unit
+  double tolerance = 1e-6;  ///< of the least diagonal of A, or in the files' unit
   bool tolerance_is_absolute = false;
   uint32_t level_limit = 1000;
   /// A level refines no more candidates than fit: those with the smallest u, and others wait.

@@ -16,9 +16,7 @@ double extent_of(const Box& box, const glm::dvec3& centre) {
 }
 
 // Halves first: a sum of large coordinates overflows.
-glm::dvec3 middle_of(const Box& box) {
-  return glm::dvec3(box.lo) / 2.0 + glm::dvec3(box.hi) / 2.0;
-}
+glm::dvec3 middle_of(const Box& box) { return glm::dvec3(box.lo) / 2.0 + glm::dvec3(box.hi) / 2.0; }
 
 // x * 2^exponent in two steps, since one power of two may overflow: exact, unless it underflows.
 struct Scale {

@@ -6,8 +6,8 @@
 namespace vkh::native {
 
 /// Differences of corners without low parts are exact, and the combination is off by 4 kUlp2 S.
-/// Coordinates are 1 at most, and the weights sum to 1 at most: S is under sqrt(3) + 2 sqrt(3) = 5.2,
-/// and 4 * 5.2 kUlp2 are under 32, which are 2^-97.
+/// Coordinates are 1 at most, and the weights sum to 1 at most: S is under sqrt(3) + 2 sqrt(3)
+/// = 5.2, and 4 * 5.2 kUlp2 are under 32, which are 2^-97.
 inline Two3 exact_position(const Corners& face, const uvec2& at) {
   return two_combination(two(face.a), at.x * kUnit, two_difference(two(face.b), two(face.a)),
                          at.y * kUnit, two_difference(two(face.c), two(face.a)));

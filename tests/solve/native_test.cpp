@@ -2,6 +2,8 @@
 // distances and the witness by brute force in 113 bits; the same bits for any number of threads.
 #include "host/native/native.h"
 
+#include "host/native/problem.h"
+// Its include guard keeps the float version of shaders/math out.
 #include <doctest/doctest.h>
 
 #include <cfenv>
@@ -11,6 +13,7 @@
 
 #include "host/base/float_environment.h"
 #include "tests/shapes/hard_pairs.h"
+#include "tests/verification/oracle/exact.h"
 #include "tests/verification/oracle/reference_solver.h"
 #include "vkhausdorff/report.h"
 #include "vkhausdorff/verify.h"
@@ -46,8 +49,8 @@ bool has_witness_at(const Mesh& a, const Mesh& b, const NativeReport& r) {
 
 /// A power of two that brings the joint box to about 1: the reference squares twice.
 int exponent_of(const MeshPair& pair) {
-  const auto [lo_a, hi_a] = bounding_box(pair.a);
-  const auto [lo_b, hi_b] = bounding_box(pair.b);
+  const auto [lo_a, hi_a] = vkh::test::bounding_box(pair.a);
+  const auto [lo_b, hi_b] = vkh::test::bounding_box(pair.b);
   const glm::dvec3 extent = glm::max(hi_a, hi_b) - glm::min(lo_a, lo_b);
   const double largest = std::max({extent.x, extent.y, extent.z});
   return largest > 0 ? -std::ilogb(largest) : 0;
@@ -154,12 +157,48 @@ TEST_CASE("a pair far from the origin is measured as well as near it") {
   CHECK(Interval{r.lower, r.upper}.contains(1.5 / std::sqrt(3.25)));
 }
 
+TEST_CASE("a placed vertex is within the displacement, exactly") {
+  Random random(67);
+  uint64_t moved = 0;
+  const uint64_t count = 20'000;
+  for (uint64_t i = 0; i < count; ++i) {
+    // Far boxes have a centre, whose subtraction is rounded where a vertex is finer; small ones
+    // beside large ones underflow.
+    const double far = i % 2 == 0 ? std::ldexp(random.unit() + 0.5, 8) : 0;
+    const auto fine = [&] { return far + std::ldexp(random.unit(), -int(random.below(20))); };
+    const auto vertex = [&] { return glm::dvec3(fine(), fine(), fine()); };
+    Mesh mesh;
+    mesh.vertices = {vertex(), vertex(), vertex()};
+    mesh.faces = {{0, 1, 2}};
+    Box box = vkh::bounding_box(mesh);
+    if (i % 4 == 1) mesh.vertices[1].x = std::ldexp(random.unit(), -1040 - int(random.below(30)));
+    if (i % 4 == 1) box.hi.x = 0x1p100;
+    const Frame frame = native::frame_of(box);
+    const native::PlacedVertices placed = native::placed_vertices(frame, mesh);
+    Rational farthest = 0;
+    for (size_t v = 0; v < 3; ++v) {
+      Rational sum = 0;
+      const glm::dvec3 at(placed.at[v].x, placed.at[v].y, placed.at[v].z);
+      for (int axis = 0; axis < 3; ++axis) {
+        Rational exactly = Rational(mesh.vertices[v][axis]) - Rational(frame.centre[axis]);
+        const auto power = static_cast<unsigned>(std::abs(frame.exponent));
+        exactly = frame.exponent < 0 ? Rational(exactly >> power) : Rational(exactly << power);
+        const Rational off = Rational(at[axis]) - exactly;
+        sum += off * off;
+      }
+      farthest = std::max(farthest, sum);
+    }
+    moved += farthest > 0 ? 1 : 0;
+    REQUIRE(Rational(placed.displacement) * Rational(placed.displacement) >= farthest);
+  }
+  CHECK(moved > count / 8);
+}
+
 TEST_CASE("scaled by a power of two, the ends scale exactly, down to subnormals") {
   const HardPair hard = hard_pair(0, 67);
   const NativeReport r = run_pair(hard.pair.a, hard.pair.b);
   for (const int exponent : {-900, -300, 300, 900}) {
-    const NativeReport s =
-        run_pair(scaled(hard.pair.a, exponent), scaled(hard.pair.b, exponent));
+    const NativeReport s = run_pair(scaled(hard.pair.a, exponent), scaled(hard.pair.b, exponent));
     CHECK(s.lower == std::ldexp(r.lower, exponent));
     CHECK(s.upper == std::ldexp(r.upper, exponent));
   }

@@ -28,9 +28,10 @@ void print(const vkh::native::NativeReport& r) {
               name_of(r.status), r.lower, r.upper, r.tolerance);
   std::printf("\"levels\": %u, \"candidates\": %llu, \"queries\": %llu, \"peak\": %llu, ", r.levels,
               number(r.candidates), number(r.queries), number(r.peak_candidates));
-  std::printf("\"witness\": {\"face_a\": %u, \"face_b\": %u, \"barycentric\": [%.17g, %.17g, %.17g]}",
-              r.witness.face_a, r.witness.face_b, r.witness.barycentric[0],
-              r.witness.barycentric[1], r.witness.barycentric[2]);
+  std::printf(
+      "\"witness\": {\"face_a\": %u, \"face_b\": %u, \"barycentric\": [%.17g, %.17g, %.17g]}",
+      r.witness.face_a, r.witness.face_b, r.witness.barycentric[0], r.witness.barycentric[1],
+      r.witness.barycentric[2]);
   std::printf(", \"closed\": [");
   for (size_t i = 0; i < r.closed.size(); ++i)
     std::printf("%s%llu", i > 0 ? ", " : "", number(r.closed[i]));

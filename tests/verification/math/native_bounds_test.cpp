@@ -56,11 +56,10 @@ uvec2 any_place(Random& random) {
   const uint k = random.below((1u << bits) - j + 1);
   return {j << (kBits - bits), k << (kBits - bits)};
 }
-Bary3 any_part(Random& random) {
-  return {any_place(random), any_place(random), any_place(random)};
-}
+Bary3 any_part(Random& random) { return {any_place(random), any_place(random), any_place(random)}; }
 
-// ---- exact points --------------------------------------------------------------------------------
+// ---- exact points
+// --------------------------------------------------------------------------------
 
 // Rational points, since doubles of any exponents meet.
 struct Point {
@@ -112,7 +111,8 @@ bool covers(double bound, const Rational& squared) {
   return vkh::test::is_upper_bound(bound, squared);
 }
 
-// ---- arithmetic ----------------------------------------------------------------------------------
+// ---- arithmetic
+// ----------------------------------------------------------------------------------
 
 TEST_CASE("lengths in doubles are rounded up, from 1 down to where squares underflow") {
   Random random(1);
@@ -190,7 +190,8 @@ TEST_CASE("sums and products of two doubles are exact, their combinations within
   }
 }
 
-// ---- places --------------------------------------------------------------------------------------
+// ---- places
+// --------------------------------------------------------------------------------------
 
 TEST_CASE("corners and cuts around a face's corner are within the face's slack") {
   Random random(6);
@@ -230,7 +231,8 @@ TEST_CASE("a sample's position is exact to kPositionError") {
   }
 }
 
-// ---- distances -----------------------------------------------------------------------------------
+// ---- distances
+// -----------------------------------------------------------------------------------
 
 // A place from which surfaces are measured, and a point around it, next to the triangle or not.
 struct Measured {
@@ -328,7 +330,8 @@ TEST_CASE("a separating plane's distance is rounded down, for corners off by the
     if (kind == 1) r = closest_point(vec3(0, 0, 0), s.at).offset;
     const double down = coarse_distance_down(s, r);
     if (!(down > 0)) continue;
-    const Rational claim = (Rational(down) + Rational(s.slack)) * (Rational(down) + Rational(s.slack));
+    const Rational claim =
+        (Rational(down) + Rational(s.slack)) * (Rational(down) + Rational(s.slack));
     for (const vec3& corner : {s.at.a, s.at.b, s.at.c}) {
       const Rational along = dot(point(-corner), point(r));
       REQUIRE(along >= 0);
