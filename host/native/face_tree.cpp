@@ -200,6 +200,7 @@ Nearest FaceTree::nearest(const vec3& p, Nearest best) const {
       const uint32_t begin = child & ((1u << kCountShift) - 1);
       const uint32_t count = ((child & ~kLeafFlag) >> kCountShift) + 1;
       for (uint32_t i = begin; i < begin + count; ++i) try_triangle(p, i, best);
+      if (best.distance2 == 0) return best;  // as are half of the vertices of a coarser copy
       reach2 = float_above(best.distance2);
     }
     do {
