@@ -94,6 +94,7 @@ set(VKH_PROGRAM_ROOMS show batch app)
 foreach(room IN LISTS VKH_LIBRARY_ROOMS VKH_PROGRAM_ROOMS)
   add_subdirectory(host/${room})
 endforeach()
+add_subdirectory(host/native)  # nothing of the product calls it yet
 
 # vkh_room_objects(OUT ROOM...)
 function(vkh_room_objects out)

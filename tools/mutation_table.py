@@ -18,6 +18,10 @@ TALLY = "shaders/survey/tally.h"
 LOWER = "shaders/math/lower.h"
 FRAME = "host/solve/frame.cpp"
 LENGTH = "host/base/length.cpp"
+TWO_DOUBLE = "host/native/two_double.h"
+IN_DOUBLES = "host/native/certified.h"
+PLACE = "host/native/place.h"
+SEPARATE = "host/native/separate.h"
 
 ON_TWO = ["lib_two_float_test", "lib_attack_test", "lib_model_test"]
 ON_CERTIFIED = ["lib_attack_test", "lib_certified_test", "lib_model_test"]
@@ -31,6 +35,7 @@ ON_TALLY = ["lib_tally_test"]
 ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
 ON_LENGTH = ["diagonal_test"]
+ON_DOUBLES = ["native_bounds_test"]
 
 
 def row(name, file, old, new, tests, nth=1):
@@ -311,12 +316,41 @@ ROWS = [
     row("the diagonal's share of delta", LENGTH, "kDiagonalPerDelta = 3.4642",
         ["kDiagonalPerDelta = 3.464", "kDiagonalPerDelta = 1.7321", "kDiagonalPerDelta = 0"], ON_LENGTH),
     row("the ulps around a share", LENGTH, "kUlps = 16", ["kUlps = 2", "kUlps = 1", "kUlps = 0"], ON_LENGTH),
+    # host/native: doubles
+    row("kUlp2 in doubles", TWO_DOUBLE, "0x1p-102", ["0x1p-104", "0x1p-106", "0x1p-108"], ON_DOUBLES),
+    row("two_sum's low part in doubles", TWO_DOUBLE, "(a - (s - from_b)) + (b - from_b)", ["0 * from_b"], ON_DOUBLES),
+    row("two_product's fused error", TWO_DOUBLE, "std::fma(a, b, -p)", ["0 * p"], ON_DOUBLES),
+    row("two_difference's low parts in doubles", TWO_DOUBLE, "d.lo + (a.lo - b.lo)", ["d.lo + a.lo", "d.lo"], ON_DOUBLES),
+    row("two_combination's sums in doubles", TWO_DOUBLE, "((base.lo + s.lo) + t.lo)", ["(base.lo + s.lo)", "base.lo"], ON_DOUBLES),
+    row("two_combination's products in doubles", TWO_DOUBLE, "(p.lo + q.lo)", ["p.lo"], ON_DOUBLES),
+    row("kUlp in doubles", IN_DOUBLES, "0x1p-52", ["0x1p-53", "0x1p-54", "0x1p-56"], ON_DOUBLES),
+    row("kTiny in doubles", IN_DOUBLES, "0x1p-500", ["0x1p-536", "0x1p-540", "0.0"], ON_DOUBLES),
+    row("round_up in doubles", IN_DOUBLES, "(1.0 + (n + 2.0) * kUlp)", ["(1.0 + (n + 1.0) * kUlp)", "(1.0 + n * kUlp)"], ON_DOUBLES),
+    row("round_down in doubles", IN_DOUBLES, "(1.0 - (n + 2.0) * kUlp)", ["(1.0 - (n + 1.0) * kUlp)", "(1.0 - n * kUlp)"], ON_DOUBLES),
+    row("length_up in doubles", IN_DOUBLES, "round_up(root(square), 1.0)", ["round_up(root(square), 0.0)", "round_up(root(square), -1.0)"], ON_DOUBLES),
+    row("raised in doubles", IN_DOUBLES, "x + (4.0 * kUlp", ["x + (2.0 * kUlp", "x + (1.0 * kUlp", "x + (0.0 * kUlp"], ON_DOUBLES),
+    row("lowered in doubles", IN_DOUBLES, "x - (4.0 * kUlp", ["x - (2.0 * kUlp", "x - (1.0 * kUlp", "x - (0.0 * kUlp"], ON_DOUBLES),
+    row("sharp_norm_above_up in doubles", IN_DOUBLES, "raised(round_up(norm_up(rounded(v)), 1.0) - base)",
+        ["raised(norm_up(rounded(v)) - base)", "norm_up(rounded(v)) - base"], ON_DOUBLES),
+    row("quotient_down in doubles", IN_DOUBLES, "round_down(a / b, 1.0)", ["round_down(a / b, 0.0)", "round_down(a / b, -1.0)", "a / b"], ON_DOUBLES),
+    row("kCornerError", PLACE, "2.0 * kUlp", ["1.5 * kUlp", "1.25 * kUlp", "1.0 * kUlp", "0.5 * kUlp"], ON_DOUBLES),
+    row("kPositionError", SEPARATE, "0x1p-97", ["0x1p-100", "0x1p-104", "0x1p-108", "0.0"], ON_DOUBLES),
+    counts("coarse_slack in doubles", TRIANGLE, "{12.0f} * kUlp * radius_up(at)", ON_DOUBLES),
+    row("surface_distance_up's slack in doubles", TRIANGLE, "round_up(d + s.slack, 3.0f)", ["round_up(d, 3.0f)"], ON_DOUBLES),
+    counts("coarse_distance_down in doubles", LOWER, "{4.25f} * kUlp * radius_up(s.at)", ON_DOUBLES),
+    row("coarse_distance_down's slack in doubles", LOWER, " + s.slack * norm_up(r)", [""], ON_DOUBLES),
+    row("a part's slack in doubles", BOUNDS, "bound + shift", ["bound"], ON_DOUBLES),
+    row("bound_u1 in doubles", BOUNDS, "max(farther, 0.0f), 3.0f", ["max(farther, 0.0f), 1.0f", "max(farther, 0.0f), -2.0f"], ON_DOUBLES),
+    row("bound_u2 in doubles", BOUNDS, "max3(d), 0.0f), 1.0f", ["max3(d), 0.0f), 0.0f", "max3(d), 0.0f), -2.0f"], ON_DOUBLES),
+    row("enclosing_radius_up in doubles", TRIANGLE, "return round_up(r, 1.0f)", ["return round_up(r, 0.0f)", "return round_up(r, -2.0f)"], ON_DOUBLES),
 ]
 
 QUICK = {"kUlp2", "norm_up", "bound_u2's worst corner", "place's second edge"}
 
 # Rows that no test can notice, and why.
 EXPECTED_SURVIVORS = {
+    "enclosing_radius_up in doubles": "norm_up leaves 1.5 u of 3, and three differences are seldom all that wrong",
+    "sharp_norm_above_up in doubles": "norm_up has 1.5 u left, and surfaces of 48 bits, which it is for, are not used there",
     "sharp_norm_up's low square": "at most a quarter of an ulp of the length; the two steps are worth more",
     "quotient_down's kTiny": "next_down already gives 0 for what may have been flushed",
     "raised's kTiny": "its argument has a kTiny of its own wherever it is small",

@@ -16,7 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "shaders": ["math", "base", "bvh", "traversal", "wave", "paper", "report", "survey", "doctor"],
-    "host": ["base", "mesh", "read", "gpu", "solve", "survey", "write", "simplify", "answer", "show", "batch", "app"],
+    "host": ["base", "mesh", "read", "gpu", "solve", "native", "survey", "write", "simplify", "answer", "show", "batch", "app"],
     "tests": ["verification/oracle", "shapes", "support", "verification/model", "verification/math", "unit", "files/malformed", "files",
               "engine", "solve", "page", "verification/check", "verification/faults", "app", "python", "platforms",
               "verification/fuzz", "verification/sanitize", "verification/proofs"],

@@ -136,6 +136,6 @@ def contradictions(proof, headers):
             yield case
 
 
-def holds_with(proof, name, value):
+def holds_with(proof, name, value, headers=Headers):
     """Whether the theorem is proven with another value of the constant. A wrong literal is a proof's failure, too."""
-    return next(failures(proof, Headers({name: value})), None) is None
+    return next(failures(proof, headers({name: value})), None) is None

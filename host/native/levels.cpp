@@ -1,0 +1,209 @@
+#include "host/native/levels.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "host/base/parallel.h"
+#include "host/native/cascade.h"
+
+namespace vkh::native {
+namespace {
+
+// So small that a piece's cost hardly differs from others', so large that taking one costs nothing.
+constexpr size_t kParentsOfPiece = 64;
+constexpr size_t kFacesAtOnce = 256;
+constexpr size_t kVerticesOfPiece = 256;
+
+std::array<uint32_t, 3> three(const uvec3& v) { return {v.x, v.y, v.z}; }
+
+double area_of(const Bary3& t) {
+  const auto step = [](uint from, uint to) { return double(int64_t{to} - int64_t{from}); };
+  return abs(step(t.a.x, t.b.x) * step(t.a.y, t.c.y) - step(t.a.y, t.b.y) * step(t.a.x, t.c.x));
+}
+
+// The smallest u first; of equal ones the smallest in area, whose parts come before their equals.
+bool is_sooner(const Candidate& p, const Candidate& q) {
+  const auto key = [](const Candidate& c) {
+    return std::make_tuple(c.upper, area_of(c.at), c.face, c.at.a.x, c.at.a.y, c.at.b.x, c.at.b.y,
+                           c.at.c.x, c.at.c.y);
+  };
+  return key(p) < key(q);
+}
+
+}  // namespace
+
+Levels::Levels(const Problem& problem, double tolerance, const NativeOptions& options)
+    : problem_(problem), tolerance_(tolerance), options_(options) {}
+
+template <class Work>
+std::vector<Levels::Piece> Levels::in_pieces(size_t count, size_t size, const Work& work) {
+  std::vector<Piece> pieces((count + size - 1) / size);
+  for_each_index(
+      pieces.size(), [&](size_t i) { work(pieces[i], i * size, std::min((i + 1) * size, count)); },
+      options_.threads);
+  return pieces;
+}
+
+void Levels::take_over(const std::vector<Piece>& pieces) {
+  for (const Piece& piece : pieces) {
+    total_.add(piece.gain);
+    open_.insert(open_.end(), piece.open.begin(), piece.open.end());
+  }
+  peak_ = std::max(peak_, open_.size());
+}
+
+// Neighbours in a file are mostly neighbours: a search starts from the triangle of the one before.
+void Levels::query_vertices(Piece& piece, size_t begin, size_t end) {
+  uint32_t before = 0;
+  for (size_t v = begin; v < end; ++v) {
+    const vec3& p = problem_.placed_a.at[v];
+    Nearest start;
+    problem_.tree.try_triangle(p, before, start);
+    of_vertex_[v] = problem_.tree.nearest(p, start);
+    before = of_vertex_[v].place;
+    ++piece.gain.queries;
+  }
+}
+
+void Levels::start() {
+  of_vertex_.resize(problem_.placed_a.at.size());
+  take_over(in_pieces(of_vertex_.size(), kVerticesOfPiece,
+                      [&](Piece& p, size_t begin, size_t end) { query_vertices(p, begin, end); }));
+  const std::vector<UVec3>& faces = problem_.a.faces;
+  for (uint32_t f = 0; f < faces.size(); ++f) {
+    const Bary3 corner = whole_face();
+    const auto offer = [&](uint32_t v, const uvec2& at) {
+      const Nearest& near = of_vertex_[v];
+      total_.offer({root(near.distance2), f, at, near.place});
+    };
+    offer(faces[f].x, corner.a);
+    offer(faces[f].y, corner.b);
+    offer(faces[f].z, corner.c);
+  }
+  take_over(in_pieces(faces.size(), kFacesAtOnce, [&](Piece& piece, size_t begin, size_t end) {
+    for (size_t f = begin; f < end; ++f) bound_face(piece, static_cast<uint32_t>(f));
+  }));
+  ++levels_;
+}
+
+void Levels::bound_face(Piece& piece, uint32_t f) const {
+  const UVec3& v = problem_.a.faces[f];
+  const Face face = problem_.face_of_a(f);
+  const Bary3 whole = whole_face();
+  const std::array<Nearest, 3> near{of_vertex_[v.x], of_vertex_[v.y], of_vertex_[v.z]};
+  Family family(problem_, face, kNone);
+  family.add_point(whole.a, near[0].place);
+  family.add_point(whole.b, near[1].place);
+  family.add_point(whole.c, near[2].place);
+  const bool on_b = near[0].distance2 + near[1].distance2 + near[2].distance2 == 0;
+  if (on_b && family.is_shared(v, piece.gain)) return piece.gain.close(0, kByExact);
+  const Child child{whole, {0, 1, 2}};
+  const Verdict verdict = family.bound(child, 1e30, threshold(), piece.gain);
+  if (verdict.upper <= threshold()) return piece.gain.close(verdict.upper, verdict.by);
+  piece.open.push_back(
+      {whole, f, {near[0].place, near[1].place, near[2].place}, verdict.centre, verdict.upper});
+}
+
+// The candidates that a level refines are left in open_, and those that wait are returned.
+std::vector<Candidate> Levels::waiting() {
+  const size_t held = open_.size(), most = options_.most_candidates;
+  const size_t room = most > held ? std::max<size_t>((most - held) / 3, 1) : 1;
+  if (held <= room) return {};
+  const auto cut = open_.begin() + static_cast<std::ptrdiff_t>(room);
+  std::nth_element(open_.begin(), cut, open_.end(), is_sooner);
+  std::vector<Candidate> rest(cut, open_.end());
+  open_.resize(room);
+  return rest;
+}
+
+// The code of the candidate's split; kSplitNone if its bits have run out, or if it is so small that
+// rounding holds u up.
+uint32_t Levels::choose_split(const Candidate& c, const Face& face) const {
+  const Corners t = local_corners(face, c.at);
+  const vec3 ab = t.b - t.a, ac = t.c - t.a;
+  const double tiny = 0.0625 * tolerance_;
+  if (max(dot3(ab, ab), dot3(ac, ac)) < tiny * tiny) return kSplitNone;
+  if (quality(t) < kThinQuality) {
+    const uint x = opposite_longest(t);
+    const Halves h = halves_of(c.at, x, middle_opposite(c.at, x));
+    const uint y = opposite_longest(local_corners(face, h.first));
+    const uint z = opposite_longest(local_corners(face, h.second));
+    const uint code = bisection_code(x, y, z);
+    if (can_split(c.at, code)) return code;
+  }
+  return can_split(c.at, kSplitMidpoint) ? kSplitMidpoint : kSplitNone;
+}
+
+void Levels::split(Piece& piece, uint32_t number) const {
+  const Candidate& c = open_[number];
+  if (c.upper <= threshold()) return piece.gain.close(c.upper, kByRisen);
+  const Face face = problem_.face_of_a(c.face);
+  Split s{.parent = number, .code = choose_split(c, face), .nearest = {}};
+  if (s.code == kSplitNone) return piece.gain.close(c.upper, kByPrecision);
+  const Bary6 points = split_points(c.at, s.code);
+  for (uint i = 0; i < 3; ++i) {
+    const uvec2 at = corner_of(points.fresh, i);
+    const vec3 p = near_position(face, at);
+    Nearest start;
+    for (const uint32_t place : c.nearest) problem_.tree.try_triangle(p, place, start);
+    if (c.centre != kNone) problem_.tree.try_triangle(p, c.centre, start);
+    const Nearest found = problem_.tree.nearest(p, start);
+    s.nearest[i] = found.place;
+    piece.gain.offer({root(found.distance2), c.face, at, found.place});
+    ++piece.gain.queries;
+  }
+  piece.splits.push_back(s);
+}
+
+void Levels::bound_children(Piece& piece, const Split& s) const {
+  const Candidate& parent = open_[s.parent];
+  const Face face = problem_.face_of_a(parent.face);
+  const Bary6 points = split_points(parent.at, s.code);
+  Family family(problem_, face, parent.centre);
+  std::array<uint32_t, 6> near;
+  for (uint i = 0; i < 6; ++i) {
+    near[i] = i < 3 ? parent.nearest[i] : s.nearest[i - 3];
+    family.add_point(point_of(points, i), near[i]);
+  }
+  for (uint which = 0; which < 4; ++which) {
+    const uvec3 corner = child_points(s.code, which);
+    const Child child{child_of(points, corner), three(corner)};
+    const Verdict v = family.bound(child, parent.upper, threshold(), piece.gain);
+    if (v.upper <= threshold()) {
+      piece.gain.close(v.upper, v.by);
+    } else {
+      piece.open.push_back({child.at,
+                            parent.face,
+                            {near[corner.x], near[corner.y], near[corner.z]},
+                            v.centre,
+                            v.upper});
+    }
+  }
+}
+
+void Levels::advance() {
+  std::vector<Candidate> rest = waiting();
+  std::vector<Piece> pieces =
+      in_pieces(open_.size(), kParentsOfPiece, [&](Piece& piece, size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) split(piece, static_cast<uint32_t>(i));
+      });
+  for (const Piece& piece : pieces) total_.add(piece.gain);
+  for (Piece& piece : pieces) piece.gain = {};
+  for_each_index(
+      pieces.size(),
+      [&](size_t i) {
+        for (const Split& s : pieces[i].splits) bound_children(pieces[i], s);
+      },
+      options_.threads);
+  open_ = std::move(rest);
+  take_over(pieces);
+  ++levels_;
+}
+
+double Levels::largest_open() const {
+  double largest = 0;
+  for (const Candidate& c : open_) largest = max(largest, c.upper);
+  return largest;
+}
+
+}  // namespace vkh::native
