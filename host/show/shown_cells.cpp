@@ -27,15 +27,31 @@ std::array<uint32_t, 4> words_of(const lib::Bary3& corners) {
   return {w.x, w.y, w.z, w.w};
 }
 
-// Whether b is on the same side as c of the line through a and m; exact, for they are integers.
-bool is_beside(const glm::uvec2& a, const glm::uvec2& m, const glm::uvec2& b,
-               const glm::dvec2& point) {
-  const glm::dvec2 way = glm::dvec2(m) - glm::dvec2(a);
-  const auto side = [&](const glm::dvec2& p) {
-    return way.x * (p.y - static_cast<double>(a.y)) - way.y * (p.x - static_cast<double>(a.x));
-  };
-  return side(glm::dvec2(b)) * side(point) > 0;
-}
+/// The halving of a triangle at the middle of an edge, the line from the corner opposite to it.
+struct Halving {
+  uint32_t opposite;
+  lib::Halves halves;
+
+  Halving(const lib::Bary3& t, uint32_t corner)
+      : opposite(corner), halves(lib::halves_of(t, corner, lib::middle_opposite(t, corner))) {}
+
+  /// Positive on the first half's side of the line, negative on the other's; exact, for corners are
+  /// integers.
+  double side(const glm::uvec2& p) const {
+    const glm::dvec2 a(halves.first.a), m(halves.first.c), b(halves.first.b);
+    const glm::dvec2 way = m - a;
+    const auto of = [&](const glm::dvec2& at) {
+      return way.x * (at.y - a.y) - way.y * (at.x - a.x);
+    };
+    return of(b) > 0 ? of(glm::dvec2(p)) : -of(glm::dvec2(p));
+  }
+  bool is_first(const lib::Bary3& c) const { return side(c.a) + side(c.b) + side(c.c) > 0; }
+  /// Whether the line passes through a cell.
+  bool cuts(const lib::Bary3& c) const {
+    const double x = side(c.a), y = side(c.b), z = side(c.c);
+    return std::min({x, y, z}) < 0 && std::max({x, y, z}) > 0;
+  }
+};
 
 /// A cell, or two halves as one.
 struct Node {
@@ -69,24 +85,35 @@ class Halvings {
     return node;
   }
 
-  Node node_of(const lib::Bary3& t, std::span<uint32_t> cells) {
-    if (cells.size() == 1) return leaf_of(map_.cells[cells[0]]);
+  // The halving that the cells come from, which cuts none of them. It is the only one: another
+  // would meet the first in the triangle's centroid, which is no corner of a cell. Whoever halved
+  // took the longest edge, but floats may have taken another for it.
+  Halving halving_of(const lib::Bary3& t, std::span<const uint32_t> cells) const {
     gpu::Cell words{};
     set_corners(words, t);
     words.face = map_.cells[cells[0]].face;
-    const uint32_t opposite = opposite_longest(mesh_, words);
-    const glm::uvec2 middle = lib::middle_opposite(t, opposite);
-    const lib::Halves halves = lib::halves_of(t, opposite, middle);
+    const uint32_t longest = opposite_longest(mesh_, words);
+    for (const uint32_t corner : {longest, (longest + 1) % 3, (longest + 2) % 3}) {
+      const Halving halving(t, corner);
+      const auto is_cut = [&](uint32_t i) {
+        return halving.cuts(corners_at(map_.cells[i].corners));
+      };
+      if (std::none_of(cells.begin(), cells.end(), is_cut)) return halving;
+    }
+    throw std::logic_error("cells are no halves of their face");
+  }
+
+  Node node_of(const lib::Bary3& t, std::span<uint32_t> cells) {
+    if (cells.size() == 1) return leaf_of(map_.cells[cells[0]]);
+    const Halving halving = halving_of(t, cells);
     const auto cut = std::partition(cells.begin(), cells.end(), [&](uint32_t i) {
-      const lib::Bary3 c = corners_at(map_.cells[i].corners);
-      const glm::dvec2 inside = (glm::dvec2(c.a) + glm::dvec2(c.b) + glm::dvec2(c.c)) / 3.0;
-      return is_beside(corner_of(t, opposite), middle, halves.first.b, inside);
+      return halving.is_first(corners_at(map_.cells[i].corners));
     });
     const auto count = static_cast<size_t>(cut - cells.begin());
     if (count == 0 || count == cells.size()) throw std::logic_error("cells do not tile their face");
-    const Node first = node_of(halves.first, cells.first(count));
-    const Node second = node_of(halves.second, cells.subspan(count));
-    const Node both = joined(t, opposite, first, second);
+    const Node first = node_of(halving.halves.first, cells.first(count));
+    const Node second = node_of(halving.halves.second, cells.subspan(count));
+    const Node both = joined(t, halving.opposite, first, second);
     costs.push_back(both.cost);
     if (both.cost <= most_cost_) return both;
     for (const Node* half : {&first, &second}) {

@@ -22,22 +22,17 @@ VKH_FN float square_width(TallyBounds b) {
   return max(b.square_upper - square_over_down(b.lower), 0.0f);
 }
 
-// The split of a cell into four as a code of math/dyadic.h: by the middles of its edges, or, if it
-// is thin, by halving its longest edge and then those of the halves. kSplitNone: the bits have run
-// out.
+// The split of a cell into four as a code of math/dyadic.h: it is halved at its longest edge, and
+// so are the halves, so that cells are halves of halves of their face. kSplitNone: the bits have
+// run out.
 VKH_FN uint cell_split(Root root, Bary3 at) {
-  Corners t = plain_corners(root, at);
-  uint code = kSplitMidpoint;
-  if (quality(t) < kThinQuality) {
-    uint x = opposite_longest(t);
-    Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
-    uvec3 all = uvec3(0u, 1u, 2u);
-    uint y = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 0u))));
-    uint z = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 1u))));
-    code = bisection_code(x, y, z);
-  }
-  if (can_split(at, code)) return code;
-  return choose(can_split(at, kSplitMidpoint), kSplitMidpoint, kSplitNone);
+  uint x = opposite_longest(plain_corners(root, at));
+  Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
+  uvec3 all = uvec3(0u, 1u, 2u);
+  uint y = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 0u))));
+  uint z = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 1u))));
+  uint code = bisection_code(x, y, z);
+  return choose(can_split(at, code), code, kSplitNone);
 }
 
 // The bin of a score: eight an octave, larger ones for larger scores; 0 for none.
