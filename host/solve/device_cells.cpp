@@ -57,10 +57,10 @@ void DeviceCells::begin(std::span<const uint64_t> weights, float farthest) {
 
 // Together with what waits, in its order.
 void DeviceCells::submit() {
-  submit_([this](VkCommandBuffer commands) {
-    for (const Record& record : waiting_) record(commands);
+  const std::vector<Record> waiting = std::exchange(waiting_, {});
+  submit_([&](VkCommandBuffer commands) {
+    for (const Record& record : waiting) record(commands);
   });
-  waiting_.clear();
 }
 
 void DeviceCells::write_plan(const gpu::SurveyPlan& plan) {
@@ -84,22 +84,23 @@ bool DeviceCells::make_room(size_t cells) {
   if (cells <= capacity_) return true;
   const size_t wanted = std::min(std::max(cells, 2 * size_t{capacity_}), most());
   if (cells > wanted) return false;
+  const auto capacity = static_cast<uint32_t>(wanted);
+  Buffer larger;
   try {
-    const auto capacity = static_cast<uint32_t>(wanted);
-    Buffer larger(device_, vkhGetSurveySize(context_, problem_.a.faceCount, capacity), kOfCells,
-                  Placement::kDevice);
-    const VkhSurvey from = view();
-    const VkhSurvey to{{larger.handle(), 0, larger.size()}, capacity};
-    waiting_.push_back([&](VkCommandBuffer commands) {
-      vkhCmdMoveSurvey(context_, commands, &problem_, &from, &to, count_);
-    });
-    submit();
-    buffers_.memory = std::move(larger);
-    capacity_ = capacity;
-    return true;
+    larger = Buffer(device_, vkhGetSurveySize(context_, problem_.a.faceCount, capacity), kOfCells,
+                    Placement::kDevice);
   } catch (const MemoryError&) {
     return false;
   }
+  const VkhSurvey from = view();
+  const VkhSurvey to{{larger.handle(), 0, larger.size()}, capacity};
+  waiting_.push_back([&](VkCommandBuffer commands) {
+    vkhCmdMoveSurvey(context_, commands, &problem_, &from, &to, count_);
+  });
+  submit();
+  buffers_.memory = std::move(larger);
+  capacity_ = capacity;
+  return true;
 }
 
 bool DeviceCells::split(const SurveyChoice& choice) {
