@@ -451,10 +451,9 @@ MeshGiven mesh_given(const char* argument, const std::string& name, const py::ob
   return {.mesh = {}, .file = {}, .arrays = raw_mesh_from(name, arrays[0], arrays[1])};
 }
 
-MeshPointer made_mesh(MeshGiven given, ReadLimits limits) {
+MeshPointer made_mesh(MeshGiven given, const ReadLimits& limits) {
   if (given.mesh != nullptr) return given.mesh;
-  if (!given.file.empty())
-    return std::make_shared<const ReadMesh>(read_file(given.file, std::move(limits)));
+  if (!given.file.empty()) return std::make_shared<const ReadMesh>(read_file(given.file, limits));
   RawMesh& raw = given.arrays;
   if (given.are_points)
     return std::make_shared<const ReadMesh>(make_points(raw.name, std::move(raw.vertices)));

@@ -60,7 +60,7 @@ PointSides point_sides(const Arguments& given);
 MeshGiven mesh_given(const char* argument, const std::string& name, const pybind11::object& object,
                      bool are_points = false);
 /// Makes the mesh on any thread. Throws FileFault, what read_mesh and make_mesh throw.
-MeshPointer made_mesh(MeshGiven given, ReadLimits limits);
+MeshPointer made_mesh(MeshGiven given, const ReadLimits& limits);
 
 /// The path that a str or an os.PathLike names; none for other objects. Throws ValueError that
 /// names `argument` for a path of no file.

@@ -6,8 +6,6 @@
 namespace vkh {
 namespace {
 
-constexpr double kNearlyNone = 1e-5;  // of A's area
-
 // The most area, as a share, that may lie at distances above `from` and up to `to`.
 double most_between(const Enclosure& at_from, const Enclosure& at_to) {
   return at_to.upper - at_from.lower;

@@ -19,6 +19,8 @@ struct FiguresAsked {
   double least;                                              ///< the width that is always enough
   double largest = std::numeric_limits<double>::infinity();  ///< no distance is above it
 
+  static constexpr double kNearlyNone = 1e-5;  ///< of A's area
+
   static double width(const Enclosure& e) { return e.upper - e.lower; }
   /// The width that is enough for a length.
   double enough(const Enclosure& figure) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "host/survey/figures_asked.h"
 #include "vkhausdorff/metrics.h"
 
 namespace vkh {
@@ -56,13 +57,12 @@ Enclosure pooled_percentile(const PooledPart& a, const PooledPart& b, double sha
   return e;
 }
 
-// The same margins as those of one surface's percentile (goals.cpp).
+// The same margins as those of one surface's percentile (FiguresAsked::is_gap).
 bool is_pooled_jump(const PooledPart& a, const PooledPart& b, const Enclosure& e, double enough) {
-  constexpr double kNearlyNone = 1e-5;
   if (!(e.upper - e.lower > enough)) return false;
   const double beside = 0.4 * enough;
   const std::vector<Enclosure> at = pooled_shares(a, b, {e.lower + beside, e.upper - beside});
-  return at[1].upper - at[0].lower <= kNearlyNone;
+  return at[1].upper - at[0].lower <= FiguresAsked::kNearlyNone;
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include "host/base/hypot3.h"
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
+#include "shaders/math/parts.h"
 
 namespace vkh {
 namespace {
@@ -587,12 +588,15 @@ struct Sums {
   Sum lower, upper, square_lower, square_upper;
   double largest = 0;
 
+  // From below both are those of the positive part of `lower`, as a device's tally has them.
   void add(const gpu::CellBounds& b, double area) {
-    const double down = mean_lower(b), up = static_cast<double>(b.mean_upper);
-    const auto highest = static_cast<double>(b.highest);
+    const lib::vec3 at(b.lower_a, b.lower_b, b.lower_c);
+    const double down = std::max(mean_lower(b), static_cast<double>(lib::mean_over_down(at)));
+    const double squares = static_cast<double>(lib::square_over_down(at));
+    const auto up = static_cast<double>(b.mean_upper), highest = static_cast<double>(b.highest);
     lower.add(area * down);
     upper.add(area * up);
-    square_lower.add(area * down * down);
+    square_lower.add(area * std::max(down * down * (1 - 2 * kUnit), squares));
     square_upper.add(area * std::min(static_cast<double>(b.square_upper), highest * up));
     largest = std::max(largest, highest);
   }

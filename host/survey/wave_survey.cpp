@@ -194,7 +194,7 @@ struct PercentileEnd {
 
 // Each pass cuts what is left of the ends. No cell is split between two.
 std::vector<Enclosure> WaveSurvey::percentiles(const PercentileSearch& search) {
-  constexpr int kMostPasses = 20;
+  constexpr int kMostTallies = 20;
   constexpr double kOfWidth = 1.0 / 32;  // nearer ends make no interval much narrower
   std::vector<PercentileEnd> ends;
   for (size_t i = 0; i < search.shares.size(); ++i) {
@@ -203,7 +203,7 @@ std::vector<Enclosure> WaveSurvey::percentiles(const PercentileSearch& search) {
     ends.push_back({search.shares[i], known.lower, known.upper, enough, false});
     ends.push_back({search.shares[i], known.lower, known.upper, enough, true});
   }
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < kMostTallies; ++pass) {
     std::vector<Threshold> at;
     for (const PercentileEnd& e : ends) {
       for (int k = 1; k < PercentileEnd::kSections && e.is_wide(); ++k)
