@@ -129,7 +129,7 @@ library=$folder/shared/lib/libvkhausdorff.so.$version
 readelf -d "$library" | grep -q "SONAME.*\[libvkhausdorff.so.${version%.*}\]" || fail "another SONAME than ${version%.*}"
 if readelf -d "$library" | grep "NEEDED.*vulkan"; then fail "the engine links to the Vulkan loader"; fi
 nm -D --defined-only "$library" | awk '{print $NF}' | sort >"$folder/exported"
-grep -ohE '\bvkh[A-Z]\w*\(' "$folder/shared/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"
+grep -ohE '\bvkh[A-Z]\w*\(' "$folder"/shared/include/vkhausdorff{,_experimental}.h | tr -d '(' | sort -u >"$folder/declared"
 diff "$folder/declared" "$folder/exported" || fail "the shared engine exports (>) other symbols than it declares (<)"
 use_package "$folder/shared"
 check_unload plugin.so libvkhausdorff.so

@@ -19,7 +19,7 @@ if grep -rIlE "$folder|$build|$source" "$package"; then fail "absolute paths of 
 # accepted; symbols_test.py looks at the archives themselves.
 ${CXX:-c++} -shared -o "$folder/engine.so" -Wl,--whole-archive "$package/lib/libvkhausdorff.a" -Wl,--no-whole-archive
 nm -D --defined-only "$folder/engine.so" | awk '!($2 ~ /[WV]/ && $3 !~ /3vkh/) {print $3}' | sort >"$folder/exported"
-grep -ohE '\bvkh[A-Z]\w*\(' "$package/include/vkhausdorff.h" | tr -d '(' | sort -u >"$folder/declared"
+grep -ohE '\bvkh[A-Z]\w*\(' "$package"/include/vkhausdorff{,_experimental}.h | tr -d '(' | sort -u >"$folder/declared"
 diff "$folder/declared" "$folder/exported" || fail "the engine exports (>) other symbols than it declares (<)"
 nm -g --undefined-only "$package/lib/libvkhausdorff.a" | grep -E ' vk[A-Z]' && fail "the engine links to the Vulkan loader"
 
