@@ -183,7 +183,7 @@ ROWS = [
     row("weighed_up's unit", TALLY, "choose(bits_of(value) == 0u, 0u, 1u)", ["0u"], ON_TALLY),
     row("weighed_up's weight", TALLY, "uvec2 down = weighed(w.up, value, unit);", ["uvec2 down = weighed(w.down, value, unit);"], ON_TALLY),
     row("tally_bounds' square", TALLY, "round_up(b.highest * t.mean_upper, 1.0f)", ["0.99f * b.highest * t.mean_upper"], ON_TALLY),
-    row("lowest_of", TALLY, "max(least3(b.lower), 0.0f)", ["max(max3(b.lower), 0.0f)"], ON_TALLY),
+    row("lowest_of", TALLY, "max(b.below.least, 0.0f)", ["max(b.below.most, 0.0f)"], ON_TALLY),
 
     # parts.h
     counts("shortened", PARTS, "1.0f - {8.0f} * kUlp, norm_up(r)", ON_PARTS, steps=[4.0, 0.0, -32.0]),
