@@ -11,7 +11,7 @@
 
 namespace vkh {
 
-/// What cells prove of the distances over A, in the frame.
+/// Tells what cells prove of the distances over A, in the frame.
 class AreaDistances {
  public:
   virtual ~AreaDistances() = default;
@@ -24,7 +24,7 @@ class AreaDistances {
   virtual double highest() = 0;  ///< and none is farther
 };
 
-/// Of cells that the host holds. Both outlive it.
+/// Takes them from cells that the host holds. Both outlive it.
 class StoredDistances : public AreaDistances {
  public:
   StoredDistances(const CellStore& store, const Areas& areas) : store_(store), areas_(areas) {}

@@ -1,4 +1,5 @@
-// What a tally of a survey's cells proves of A: its integers as enclosures, in the frame.
+// Reads a tally of a survey's cells: its integers as enclosures of what is proven of A, in the
+// frame.
 #pragma once
 
 #include <cstdint>

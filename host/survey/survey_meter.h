@@ -1,4 +1,4 @@
-// What a survey may take, and what it has taken: effort, time, the caller's patience.
+// Counts what a survey takes of its effort, its time and its caller's patience.
 #pragma once
 
 #include <algorithm>

@@ -9,7 +9,7 @@
 
 namespace vkh {
 
-/// What a tally says at the thresholds that it was asked, in the frame.
+/// The answer of a tally at the thresholds that it was asked, in the frame.
 struct Tallied {
   std::vector<Enclosure> shares;  ///< of A's area within each
   Moments moments;
@@ -27,12 +27,12 @@ class WaveGoals {
   /// cell is split, since the thresholds were farther apart than the cells' bounds are.
   bool look(const Tallied& tallied);
   bool are_met() const;
-  /// What a cell scores: its part of the widths of all figures that are open.
+  /// Scores a cell by its part of the widths of all figures that are open.
   gpu::SurveyPlan plan(double whole) const;
   /// So much of all scores is worth a wave's splits.
   double part() const;
 
-  /// What is known of the percentiles.
+  /// Encloses the percentiles.
   std::vector<Enclosure> percentiles() const;
 
  private:

@@ -30,7 +30,7 @@ class WaveSurvey : public AreaDistances {
   SurveyEnd refine(const SurveyOptions& options, size_t effort);
 
   size_t count() const { return cells_.count(); }
-  /// Of each face, a distance that some point reaches; and then, of each, one that none exceeds.
+  /// Returns a distance that some point of each face reaches; and then one that none exceeds.
   const std::vector<float>& faces();
   /// Hands the cells to the host.
   CellStore store();
