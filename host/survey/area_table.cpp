@@ -69,7 +69,8 @@ TallyEdges edges_of(std::span<const Threshold> thresholds) {
   return all;
 }
 
-int tally_unit(float farthest) { return std::ilogb(farthest) + 1 + 127; }
+// Equal surfaces have no distance at all, and a unit must have a square.
+int tally_unit(float farthest) { return std::ilogb(std::max(farthest, 0x1p-60f)) + 1 + 127; }
 
 AreaTable::AreaTable(const gpu::SurveyTable& table, const TallyEdges& at,
                      const AreaWeights& weights, int unit)

@@ -280,6 +280,21 @@ TEST_CASE("a survey that gets no more room ends there, and is true") {
   check(1'000'000, 1);
 }
 
+TEST_CASE("a surface from itself: every figure is nought") {
+  const Mesh a = square_patch(1, 0.0);
+  SurveyOptions options = figures({0.1});
+  options.upper = 0;
+  const SurveyResult r = surveyed(a, a, options);
+  CHECK(r.is_met());
+  REQUIRE(r.statistics);
+  for (const Enclosure& e : {r.statistics->mean, r.statistics->rms}) {
+    CHECK(e.lower == 0);
+    CHECK(e.upper == 0);
+  }
+  CHECK(r.statistics->bands[0].share.lower == 1);
+  for (const Percentile& p : r.statistics->percentiles) CHECK(p.distance.upper == 0);
+}
+
 TEST_CASE("the effort is kept, and what is left over is less than a split") {
   const Mesh a = icosphere(1, 2), b = translated(icosphere(1.1, 3), {0.1, 0.2, 0.05});
   for (const size_t effort : {0, 1, 3, 4, 7, 50, 1001, 4000}) {
