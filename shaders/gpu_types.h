@@ -478,7 +478,7 @@ struct SurveyEdge {
   float down, up;
 };
 
-// What the host asks of a survey's cells. The edges ascend, in both members.
+// The host's questions to a survey's cells. The edges ascend, in both members.
 struct SurveyPlan {
   uint edge_count, open_count;
   float of_whole;      // 1 over the weight of all faces
@@ -488,7 +488,7 @@ struct SurveyPlan {
   float shares[kSurveyOpen];       // so much
 };
 
-// What a survey's cells tell of A: sums of weights, and of weighted values over the largest one.
+// The answer of a survey's cells: sums of weights, and of weighted values over the largest one.
 struct SurveyTable {
   Wide sums[kSurveySums];
   uint highest;     // the largest distance from above, as bits

@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// What is to be recorded with a context.
+/// The work that is to be recorded with a context.
 enum class ContextUse {
   kRun,       ///< all that its switches say
   kHierarchy  ///< BVHs, or searches for closest points

@@ -34,7 +34,7 @@ class WaveSurvey : public AreaDistances {
   const std::vector<float>& faces();
   /// Hands the cells to the host.
   CellStore store();
-  /// What is known of the percentiles that refine() was asked for.
+  /// Encloses the percentiles that refine() was asked for.
   const std::vector<Enclosure>& known() const { return known_; }
 
   std::vector<Enclosure> shares_within(std::span<const Threshold> thresholds) override;

@@ -41,7 +41,7 @@ VKH_FN uint score_bin(float score) {
   return choose(score >= kLeastNormal, min(bits >> 20, kScoreBins - 1u), 0u);
 }
 
-// What a split leaves of a cell's bounds until its parts are bounded themselves: an affine function
+// Keeps what a split leaves of a cell's bounds until its parts have theirs: an affine function
 // has other values at a part's corners.
 VKH_FN CellBounds bounds_of_parts(CellBounds b) {
   float lowest = max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);

@@ -24,7 +24,7 @@ layout(scalar, push_constant) uniform PushBlock { SurveySplitPush push; };
 shared uint above[kGroupSize];
 shared uint ties[kGroupSize];
 
-// What there is before the invocation's cells.
+// Counts what is chosen before the invocation's cells.
 SurveyCounts counts_before() {
   uint lane = gl_LocalInvocationID.x;
   SurveyCounts own = counts_of_lane();

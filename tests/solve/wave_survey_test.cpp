@@ -107,7 +107,7 @@ SurveyOptions figures(std::vector<double> bands = {}) {
   return options;
 }
 
-/// What cells say in double, with the areas' integers.
+/// The shares that cells say in double, with the areas' integers.
 struct Said {
   double surely = 0, perhaps = 0;
 };
