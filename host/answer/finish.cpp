@@ -192,8 +192,8 @@ SurveyResult survey_of(const Finishing& at, const Side& side, const SurveyOption
   SolveOptions run = at.options;
   run.progress = [&](const Progress&) { return at.observer.is_to_go_on(); };
   try {
-    with_cells(at.solver, {.a = side.from, .b = side.to, .prepared = side.prepared}, run,
-               survey_with(options, result));
+    hold_pair(at.solver, {.a = side.from, .b = side.to, .prepared = side.prepared}, run,
+              survey_with(options, result));
   } catch (const std::bad_alloc&) {
     result.ended = SurveyEnd::kMemory;
     note(at, NoteCode::kSurvey, std::string("there was no memory to survey ") + side.name);

@@ -63,19 +63,22 @@ class SurveyCells {
   virtual void read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) = 0;
 };
 
-/// A pair whose run has ended, while it still lies on the device.
+/// Bounds cells of A; blocks until it is done.
+using BoundCells = std::function<void(const CellBatch&)>;
+
+/// A pair that lies on the device.
 struct SurveyedPair {
   const Mesh& a;
   const Mesh& b;
   Frame frame;
   double displacement;  ///< both meshes' together, in the frame
-  double farthest;      ///< the run's upper bound: no distance is larger, in the files' units
+  double farthest;      ///< no distance is larger, in the files' units
   bool on_cpu;          ///< batches should be small
+  BoundCells bound = {};
   SurveyCells* cells = nullptr;  ///< null: its cells can only be bounded
 };
 
-/// Bounds cells of A; blocks until it is done.
-using BoundCells = std::function<void(const CellBatch&)>;
-using Survey = std::function<void(const SurveyedPair&, const BoundCells&)>;
+using UsePair = std::function<void(const SurveyedPair&)>;
+using UsePairs = std::function<void(std::span<const SurveyedPair>)>;
 
 }  // namespace vkh

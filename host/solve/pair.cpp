@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "host/base/rounding.h"
-#include "host/solve/run_hooks.h"
 #include "host/solve/switches.h"
 
 namespace vkh {
@@ -54,8 +53,8 @@ float known_in_frame(const Pair& pair, double known_lower) {
 
 // `pair` lives as long as the run.
 std::function<float()> known_since(const Pair& pair) {
-  if (pair.hooks == nullptr || !pair.hooks->known_since) return {};
-  return [&pair] { return known_in_frame(pair, pair.hooks->known_since()); };
+  if (!pair.known_since) return {};
+  return [&pair] { return known_in_frame(pair, pair.known_since()); };
 }
 
 }  // namespace
@@ -105,7 +104,6 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) 
           .options = asked,
           .stage_times = options.engine.stage_times,
           .coverage = options.engine.coverage,
-          .survey = {},
           .advanced = {},
           .known_since = known_since(pair)};
 }

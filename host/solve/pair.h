@@ -8,8 +8,6 @@
 
 namespace vkh {
 
-struct RunHooks;
-
 /// A prepared B: its frame is its own, and it lies on the device.
 struct KeptMesh {
   Mesh mesh;
@@ -39,8 +37,8 @@ struct Pair {
   bool has_low;         // of either mesh
   Box box_a, joint;
   SolveOptions options = {};
-  const RunHooks* hooks = nullptr;
-  size_t number = 0;  // Progress::pair
+  std::function<double()> known_since = {};  ///< distance_since()
+  size_t number = 0;                         // Progress::pair
 };
 
 /// Converts the device's certified bounds of the pair to the files' units.

@@ -64,9 +64,6 @@ struct RunInput {
   VkhRunOptions options{};  ///< pauseWhenFull and what is of a buffer are the run's own
   bool stage_times = true;  ///< false: only the stages "hierarchy" and "solve"
   bool coverage = false;    ///< record what was closed; `switches` has VKH_CONTEXT_COVERAGE too
-  /// Called at the end, with the report, a function that bounds cells, and cells of its own;
-  /// `switches` has VKH_CONTEXT_CELLS too.
-  std::function<void(const VkhReport&, const BoundCells&, SurveyCells&)> survey;
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
   /// Asked before each submission but the first, which is then short: the value of

@@ -71,6 +71,7 @@ VkhReport nothing_known() {
 // One submission.
 struct Runner::Submission {
   std::vector<size_t> running;  // indices into buffers_
+  bool is_alone;                // of one pair, with its BVH timed apart
   bool uploads, builds, begins;
   uint32_t waves;
 };
@@ -159,7 +160,6 @@ void Runner::submit_and_wait(VkCommandBuffer commands) {
   submitter_.submit_and_wait({});
 }
 
-// Records one pair, with its BVH timed apart.
 void Runner::record_one(VkCommandBuffer commands, const Submission& submission) {
   PairBuffers& buffers = *buffers_[submission.running[0]];
   VkhProblem& problem = buffers.problem();
@@ -213,7 +213,7 @@ VkCommandBuffer Runner::record(const Submission& submission,
     for (const size_t i : submission.running) buffers_[i]->record_upload(commands);
     full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
   }
-  if (outputs.size() == 1) {
+  if (submission.is_alone) {
     record_one(commands, submission);
   } else {
     record_together(commands, submission);
@@ -268,16 +268,40 @@ void Runner::bound_cells(PairBuffers& buffers, const CellBatch& batch) {
   buffers.read_bounds(batch);
 }
 
-void Runner::survey(const RunInput& input, PairBuffers& buffers, const VkhReport& report) {
-  DeviceCells cells(device_, context_, buffers.problem(), survey_buffers_,
-                    [&](const DeviceCells::Record& record) {
-                      const VkCommandBuffer commands = begin();
-                      record(commands);
-                      full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
-                      submit_and_wait(commands);
-                    });
-  input.survey(
-      report, [&](const CellBatch& batch) { bound_cells(buffers, batch); }, cells);
+HeldPair Runner::held(size_t i, const VkhReport& report) {
+  PairBuffers& buffers = *buffers_[i];
+  const auto submit = [this](const DeviceCells::Record& record) {
+    const VkCommandBuffer commands = begin();
+    record(commands);
+    full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
+    submit_and_wait(commands);
+  };
+  return {.report = report,
+          .bound = [this, &buffers](const CellBatch& batch) { bound_cells(buffers, batch); },
+          .cells = std::make_unique<DeviceCells>(device_, context_, buffers.problem(),
+                                                 survey_buffers_[i], submit)};
+}
+
+void Runner::hold(std::span<const RunInput> inputs, const UseHeld& use) {
+  const SerialGuard::Hold hold(guard_);
+  context_ = context_for(inputs[0].switches, inputs);
+  stage_times_ = false;
+  std::vector<RunOutput> outputs(inputs.size());
+  take_buffers(inputs, outputs);
+  survey_buffers_.resize(std::max(survey_buffers_.size(), inputs.size()));
+  std::vector<HeldPair> pairs;
+  for (size_t i = 0; i < inputs.size(); ++i) {
+    Submission first{.running = {i},
+                     .is_alone = true,
+                     .uploads = true,
+                     .builds = true,
+                     .begins = true,
+                     .waves = 1};
+    if (!build_first(inputs, first, outputs)) return;
+    submit(first, outputs);
+    pairs.push_back(held(i, outputs[i].report));
+  }
+  use(pairs);
 }
 
 void Runner::find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBatch& batch) {
@@ -294,6 +318,20 @@ void Runner::find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBa
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
   submit_and_wait(commands);
   buffers_[0]->read_closest(batch);
+}
+
+// On a CPU the BVH of B can take seconds. It is a submission of its own, without waves, so that the
+// caller is asked between it and the first wave and may end the run there: false.
+bool Runner::build_first(std::span<const RunInput> inputs, Submission& submission,
+                         std::vector<RunOutput>& outputs) {
+  const size_t i = submission.running[0];
+  const bool on_cpu = device_.description().type == "cpu";
+  if (!on_cpu || !submission.is_alone || buffers_[i]->mesh_b() == nullptr) return true;
+  const uint32_t waves = std::exchange(submission.waves, 0);
+  submit(submission, outputs);
+  submission.waves = waves;
+  submission.uploads = submission.builds = false;
+  return inputs[i].advanced(outputs[i].report);
 }
 
 std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
@@ -315,20 +353,13 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   };
   const bool on_cpu = device_.description().type == "cpu";
   Submission submission{.running = {},
+                        .is_alone = inputs.size() == 1,
                         .uploads = true,
                         .builds = true,
                         .begins = true,
                         .waves = on_cpu || inputs[0].known_since ? kFewFirstWaves : kFirstWaves};
   for (size_t i = 0; i < inputs.size(); ++i) submission.running.push_back(i);
-  // On a CPU the BVH of B can take seconds. It is a submission of its own, without waves, so that
-  // the caller is asked between it and the first wave and may end the run there.
-  if (on_cpu && inputs.size() == 1 && buffers_[0]->mesh_b() != nullptr) {
-    const uint32_t waves = std::exchange(submission.waves, 0);
-    submit(submission, outputs);
-    submission.waves = waves;
-    submission.uploads = submission.builds = false;
-    if (!inputs[0].advanced(outputs[0].report)) return outputs;
-  }
+  if (!build_first(inputs, submission, outputs)) return outputs;
   uint32_t submissions = 0;
   while (!submission.running.empty()) {
     if (!inputs[0].multiwave) submission.waves = 1;
@@ -344,9 +375,6 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
       buffers_[i]->make_room(context_, outputs[i]);
       if (inputs[i].known_since) buffers_[i]->raise_known(inputs[i].known_since());
     }
-  }
-  for (size_t i = 0; i < inputs.size(); ++i) {
-    if (inputs[i].survey) survey(inputs[i], *buffers_[i], outputs[i].report);
   }
   return outputs;
 }

@@ -2,8 +2,11 @@
 // frame and reads its report.
 #pragma once
 
+#include <deque>
+#include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "host/base/serial_guard.h"
 #include "host/solve/contexts.h"
@@ -11,6 +14,14 @@
 #include "host/solve/pair_buffers.h"
 
 namespace vkh {
+
+/// A pair on the device.
+struct HeldPair {
+  VkhReport report;  ///< after one wave
+  BoundCells bound;
+  std::unique_ptr<SurveyCells> cells;
+};
+using UseHeld = std::function<void(std::span<const HeldPair>)>;
 
 /// Keeps buffers between runs. Calls from several threads run one after the other.
 class Runner {
@@ -22,6 +33,10 @@ class Runner {
   /// switches, `multiwave` and `stage_times`. Several runs have one stage, "solve", for all of them
   /// and their BVHs.
   std::vector<RunOutput> run(std::span<const RunInput> inputs);
+  /// Uploads the pairs, builds what is not resident, makes each run's first wave, and calls `use`
+  /// while they lie there. They have the same switches, VKH_CONTEXT_CELLS among them. Does not call
+  /// it if RunInput::advanced of one says no.
+  void hold(std::span<const RunInput> inputs, const UseHeld& use);
   /// Finds the faces of B that are closest to points; `mesh` is B.
   void find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBatch& batch);
 
@@ -39,8 +54,10 @@ class Runner {
   VkCommandBuffer record(const Submission& submission, const std::vector<RunOutput>& outputs);
   double submit(const Submission& submission, std::vector<RunOutput>& outputs);
   void submit_and_wait(VkCommandBuffer commands);
+  bool build_first(std::span<const RunInput> inputs, Submission& submission,
+                   std::vector<RunOutput>& outputs);
+  HeldPair held(size_t i, const VkhReport& report);
   void bound_cells(PairBuffers& buffers, const CellBatch& batch);
-  void survey(const RunInput& input, PairBuffers& buffers, const VkhReport& report);
   void read_stages(const Submission& submission, std::vector<RunOutput>& outputs);
 
   const Device& device_;
@@ -49,7 +66,7 @@ class Runner {
   Submitter submitter_;
   MemoryPool pool_;  // of buffers_, where there are several
   std::vector<std::unique_ptr<PairBuffers>> buffers_;
-  SurveyBuffers survey_buffers_;
+  std::deque<SurveyBuffers> survey_buffers_;     // of those
   MemoryPolicy policy_ = MemoryPolicy::kDevice;  // the policy of buffers_
   VkhContext context_ = nullptr;
   VkhProfile profile_{};

@@ -14,9 +14,9 @@
 #include "host/mesh/same_faces.h"
 #include "host/solve/closest_search.h"
 #include "host/solve/coverage.h"
+#include "host/solve/held_pairs.h"
 #include "host/solve/pair.h"
 #include "host/solve/run.h"
-#include "host/solve/run_hooks.h"
 #include "host/solve/run_report.h"
 #include "host/solve/switches.h"
 #include "host/solve/way_back.h"
@@ -53,6 +53,8 @@ Status status_of(const VkhReport& r, const Report& out, Status ended) {
   return r.status == VKH_STATUS_MEMORY ? Status::kMemory : Status::kPrecision;
 }
 
+struct Framed;
+
 }  // namespace
 
 struct Solver::Impl {
@@ -60,7 +62,10 @@ struct Solver::Impl {
       : device(d), contexts(std::move(all)), runner(d, contexts) {}
   std::vector<Report> distances(std::span<const PairView> meshes,
                                 const std::vector<SolveOptions>& options,
-                                const RunHooks* hooks = nullptr);
+                                const std::function<double()>& known_since = {});
+  std::vector<Framed> framed(std::span<const PairView> meshes) const;
+  void hold(std::span<const PairView> meshes, const std::vector<SolveOptions>& options,
+            const UsePairs& use);
   std::vector<Report> solve_with_switches(const std::vector<Pair>& pairs, uint32_t switches,
                                           Clock::time_point start);
   std::vector<Report> solve(const std::vector<Pair>& pairs, Clock::time_point start);
@@ -125,14 +130,15 @@ struct Watch {
   }
 };
 
-SurveyedPair surveyed(const Pair& pair, const VkhReport& report, bool on_cpu, SurveyCells& cells) {
+SurveyedPair surveyed(const Pair& pair, const HeldPair& held, bool on_cpu) {
   return {.a = pair.a,
           .b = pair.b,
           .frame = pair.frame,
           .displacement = pair.displacement,
-          .farthest = to_files(report, pair).upper,
+          .farthest = to_files(held.report, pair).upper,
           .on_cpu = on_cpu,
-          .cells = &cells};
+          .bound = held.bound,
+          .cells = held.cells.get()};
 }
 
 Report report_of(const RunOutput& run, const Watch& watch) {
@@ -200,13 +206,6 @@ std::vector<Report> Solver::Impl::solve_with_switches(const std::vector<Pair>& p
     watches.push_back({.pair = pair, .diagonal_a = diagonal(pair.box_a), .start = start});
     inputs.push_back(input_for(pair, switches, tolerance_of(pair)));
     inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
-    if (pair.hooks != nullptr && pair.hooks->survey) {
-      const bool on_cpu = device.description().type == "cpu";
-      inputs.back().survey = [&, on_cpu](const VkhReport& report, const BoundCells& bound,
-                                         SurveyCells& cells) {
-        pair.hooks->survey(surveyed(pair, report, on_cpu, cells), bound);
-      };
-    }
   }
   Times times;
   times.upload_ms = ms_since(start);
@@ -305,27 +304,32 @@ Pair pair_of(const PairView& view, const Framed& f) {
 
 }  // namespace
 
-std::vector<Report> Solver::Impl::distances(std::span<const PairView> views,
-                                            const std::vector<SolveOptions>& options,
-                                            const RunHooks* hooks) {
-  const auto start = Clock::now();
-  check_meshes(views);
-  std::vector<Framed> framed(views.size());
+// `views` were checked.
+std::vector<Framed> Solver::Impl::framed(std::span<const PairView> views) const {
+  std::vector<Framed> all(views.size());
   uint64_t bytes = 0;
   for (const PairView& m : views) bytes += m.framed ? 0 : mesh_bytes(m.a) + mesh_bytes(m.b);
   const auto frame = [&](size_t i) {
     const PairView& m = views[i];
     std::optional<Framed> served;
     if (m.prepared != nullptr) served = framed_by(*m.prepared->impl_, m);
-    framed[i] = served ? std::move(*served) : framed_alone(m);
+    all[i] = served ? std::move(*served) : framed_alone(m);
   };
   for_each_index(views.size(), frame, threads_for(bytes));
+  return all;
+}
 
+std::vector<Report> Solver::Impl::distances(std::span<const PairView> views,
+                                            const std::vector<SolveOptions>& options,
+                                            const std::function<double()>& known_since) {
+  const auto start = Clock::now();
+  check_meshes(views);
+  const std::vector<Framed> of_views = framed(views);
   std::vector<Pair> pairs, first;
   for (size_t i = 0; i < views.size(); ++i) {
-    pairs.push_back(pair_of(views[i], framed[i]));
+    pairs.push_back(pair_of(views[i], of_views[i]));
     pairs[i].options = options[i];
-    pairs[i].hooks = hooks;
+    pairs[i].known_since = known_since;
     pairs[i].number = i;
     first.push_back(coarser(pairs[i]));
   }
@@ -341,6 +345,35 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> views,
     coarse = std::move(finer[i]);
   }
   return reports;
+}
+
+// The kernels of cells are the same whatever a run's switches are: the first pair's serve all.
+void Solver::Impl::hold(std::span<const PairView> views, const std::vector<SolveOptions>& options,
+                        const UsePairs& use) {
+  check_meshes(views);
+  const std::vector<Framed> of_views = framed(views);
+  std::vector<Pair> pairs;
+  for (size_t i = 0; i < views.size(); ++i) {
+    pairs.push_back(pair_of(views[i], of_views[i]));
+    pairs[i].options = options[i];
+    pairs[i].number = i;
+  }
+  const uint32_t switches = switches_for(pairs[0].options, diagonal(pairs[0].box_a), device);
+  std::vector<Watch> watches;
+  std::vector<RunInput> inputs;
+  watches.reserve(pairs.size());  // inputs refer to them
+  for (const Pair& pair : pairs) {
+    watches.push_back({.pair = pair, .diagonal_a = diagonal(pair.box_a), .start = Clock::now()});
+    inputs.push_back(input_for(pair, switches, tolerance_of(pair)));
+    inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
+  }
+  const bool on_cpu = device.description().type == "cpu";
+  runner.hold(inputs, [&](std::span<const HeldPair> held) {
+    std::vector<SurveyedPair> on_device;
+    for (size_t i = 0; i < held.size(); ++i)
+      on_device.push_back(surveyed(pairs[i], held[i], on_cpu));
+    use(on_device);
+  });
 }
 
 namespace {
@@ -472,24 +505,32 @@ SymmetricReport Solver::symmetric(const Mesh& a, const Mesh& b, const SolveOptio
   return std::move(symmetrics({&pair, 1}, options)[0]);
 }
 
-Report distance_with(Solver& solver, const PairView& pair, const SolveOptions& options,
-                     const RunHooks& hooks) {
+Report distance_since(Solver& solver, const PairView& pair, const SolveOptions& options,
+                      const std::function<double()>& known_since) {
   FloatEnvironment ours;
   const std::span<const PairView> alone(&pair, 1);
-  std::vector<SolveOptions> run = options_of(alone, options, ours);
-  run[0].engine.cells = run[0].engine.cells || hooks.survey;
-  return std::move(solver.impl_->distances(alone, run, &hooks)[0]);
+  const std::vector<SolveOptions> run = options_of(alone, options, ours);
+  return std::move(solver.impl_->distances(alone, run, known_since)[0]);
 }
 
-void with_cells(Solver& solver, const PairView& pair, const SolveOptions& options,
-                const Survey& use) {
-  SolveOptions run = options;
-  run.limit = {};
-  run.known_lower = 0;
-  run.wave_limit = 1;
-  run.time_limit_s = std::numeric_limits<double>::infinity();
-  const PairView alone{.a = pair.a, .b = pair.b, .prepared = pair.prepared};
-  distance_with(solver, alone, run, {.survey = use});
+void hold_pairs(Solver& solver, std::span<const PairView> pairs, const SolveOptions& options,
+                const UsePairs& use) {
+  FloatEnvironment ours;
+  std::vector<SolveOptions> runs = options_of(pairs, options, ours);
+  for (SolveOptions& run : runs) {
+    run.limit = {};
+    run.known_lower = 0;
+    run.wave_limit = std::numeric_limits<uint32_t>::max();
+    run.time_limit_s = std::numeric_limits<double>::infinity();
+    run.engine.cells = true;
+  }
+  solver.impl_->hold(pairs, runs, use);
+}
+
+void hold_pair(Solver& solver, const PairView& pair, const SolveOptions& options,
+               const UsePair& use) {
+  hold_pairs(solver, {&pair, 1}, options,
+             [&](std::span<const SurveyedPair> pairs) { use(pairs[0]); });
 }
 
 }  // namespace vkh

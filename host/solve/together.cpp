@@ -15,9 +15,9 @@
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
+#include "host/solve/held_pairs.h"
 #include "host/solve/join_reports.h"
 #include "host/solve/part.h"
-#include "host/solve/run_hooks.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/frame.h"
 
@@ -101,12 +101,12 @@ class Together {
 
   void attempt(size_t device, size_t number) {
     try {
-      const RunHooks hooks{.known_since = [this, number] {
+      const auto known_since = [this, number] {
         const std::lock_guard lock(mutex_);
         return known_to(number);
-      }};
+      };
       const auto alone = [&](const Mesh& a, const Mesh& b, const SolveOptions& options) {
-        return distance_with(*solvers_[device], {a, b}, options, hooks);
+        return distance_since(*solvers_[device], {a, b}, options, known_since);
       };
       Report r = distance_of_part(alone, a_, parts_[number].ranges, b_, options_for(number));
       const std::lock_guard lock(mutex_);

@@ -12,7 +12,7 @@
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/same_faces.h"
-#include "host/solve/run_hooks.h"
+#include "host/solve/held_pairs.h"
 #include "host/survey/cell_corners.h"
 #include "host/survey/proof_tree.h"
 
@@ -72,8 +72,8 @@ Open half_of(const Open& open, uint32_t node, uint8_t opposite, size_t gone) {
 
 class Prover {
  public:
-  Prover(const SurveyedPair& pair, const BoundCells& bound, const ProofJob& job, Proof& result)
-      : bound_(bound),
+  Prover(const SurveyedPair& pair, const ProofJob& job, Proof& result)
+      : bound_(pair.bound),
         report_(job.report),
         goes_on_(job.goes_on),
         result_(result),
@@ -338,10 +338,8 @@ Proof prove(Solver& solver, const ProofJob& job) {
   Proof proof;
   SolveOptions options = job.options;
   options.progress = {};
-  with_cells(solver, {.a = job.a, .b = job.b}, options,
-             [&](const SurveyedPair& pair, const BoundCells& bound) {
-               Prover(pair, bound, job, proof).prove();
-             });
+  hold_pair(solver, {.a = job.a, .b = job.b}, options,
+            [&](const SurveyedPair& pair) { Prover(pair, job, proof).prove(); });
   return proof;
 }
 

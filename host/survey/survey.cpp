@@ -35,8 +35,7 @@ bool finds_sides(const SurveyOptions& options) { return options.is_signed || opt
 // the cells' numbers nor their bounds.
 class Bounding {
  public:
-  Bounding(const SurveyedPair& pair, const BoundCells& bound, SurveyMeter& meter)
-      : pair_(pair), bound_(bound), meter_(meter) {}
+  Bounding(const SurveyedPair& pair, SurveyMeter& meter) : pair_(pair), meter_(meter) {}
 
   // Bounds whole faces.
   void faces(CellStore& store) {
@@ -89,7 +88,7 @@ class Bounding {
 
  private:
   void bound(const CellBatch& batch) {
-    meter_.on_device([&] { bound_(batch); });
+    meter_.on_device([&] { pair_.bound(batch); });
   }
 
   template <class Work>
@@ -106,7 +105,6 @@ class Bounding {
 
   static constexpr size_t kPointsOfThread = 256;
   const SurveyedPair& pair_;
-  const BoundCells& bound_;
   SurveyMeter& meter_;
   std::vector<size_t> which_;  // cells of a batch
   std::optional<PointDistances> distances_;
@@ -299,7 +297,7 @@ Field field_within(size_t face_count, double upper) {
 SurveyResult survey_mesh(Solver& solver, const PairView& pair, const SurveyOptions& options,
                          const SolveOptions& run) {
   SurveyResult result;
-  with_cells(solver, pair, run, survey_with(options, result));
+  hold_pair(solver, pair, run, survey_with(options, result));
   return result;
 }
 
@@ -318,12 +316,12 @@ bool needs_store(const SurveyOptions& options) {
 // One survey: the figures of a surface by waves, and the rest on cells that the host holds.
 class Surveying {
  public:
-  Surveying(const SurveyedPair& pair, const BoundCells& bound, const SurveyOptions& options)
+  Surveying(const SurveyedPair& pair, const SurveyOptions& options)
       : pair_(pair),
         options_(options),
         has_cheap_sides_(may_have_cheap_sides(options, pair)),
         meter_(options, pair.on_cpu, finds_sides(options) || has_cheap_sides_),
-        bounding_(pair, bound, meter_),
+        bounding_(pair, meter_),
         areas_(areas_of(pair.a)) {}
 
   void run(SurveyResult& result) {
@@ -439,14 +437,14 @@ class Surveying {
 
 }  // namespace
 
-Survey survey_with(const SurveyOptions& options, SurveyResult& result) {
-  return [&options, &result](const SurveyedPair& on_device, const BoundCells& bound) {
+UsePair survey_with(const SurveyOptions& options, SurveyResult& result) {
+  return [&options, &result](const SurveyedPair& on_device) {
     if (options.statistics)
       refuse_any_triangulation(on_device.a, on_device.b, "statistics of an area");
     check_shares(options.percentiles);
     SurveyedPair pair = on_device;
     pair.farthest = std::min(pair.farthest, options.upper);
-    Surveying(pair, bound, options).run(result);
+    Surveying(pair, options).run(result);
   };
 }
 

@@ -1,13 +1,13 @@
-// A survey in the run that searches.
+// A survey of a pair that lies on the device.
 #pragma once
 
-#include "host/solve/run_hooks.h"
+#include "host/solve/held_pairs.h"
 #include "vkhausdorff/survey.h"
 
 namespace vkh {
 
-/// RunHooks::survey that writes `result` when the run has ended. Both must outlive it. Throws what
+/// For hold_pair(): surveys the pair and writes `result`. Both must outlive it. Throws what
 /// survey_mesh() names.
-Survey survey_with(const SurveyOptions& options, SurveyResult& result);
+UsePair survey_with(const SurveyOptions& options, SurveyResult& result);
 
 }  // namespace vkh

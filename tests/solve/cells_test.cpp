@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "host/solve/run_hooks.h"
+#include "host/solve/held_pairs.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/cell_check.h"
 #include "tests/support/solver_bench.h"
@@ -14,18 +14,15 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-/// Runs a pair, and calls `look` while it lies on the device.
-void survey(const Mesh& a, const Mesh& b, const Survey& look) {
-  SolveOptions options;
-  options.wave_limit = 1;
-  distance_with(solver(), {a, b}, options, {.survey = look});
+/// Calls `look` while a pair lies on the device.
+void survey(const Mesh& a, const Mesh& b, const UsePair& look) {
+  hold_pair(solver(), {a, b}, {}, look);
 }
 
 CellTally tally_of(const Mesh& a, const Mesh& b, size_t cells) {
   CellTally tally;
-  survey(a, b, [&](const SurveyedPair& pair, const BoundCells& bound) {
-    CellCheck(pair, b).check(bound, 7, cells, tally);
-  });
+  survey(a, b,
+         [&](const SurveyedPair& pair) { CellCheck(pair, b).check(pair.bound, 7, cells, tally); });
   return tally;
 }
 
@@ -39,8 +36,8 @@ void check_right(const CellTally& tally, size_t cells) {
 
 std::vector<gpu::CellBounds> bounds_of_faces(const Mesh& a, const Mesh& b) {
   std::vector<gpu::CellBounds> bounds(a.faces.size());
-  survey(a, b, [&](const SurveyedPair&, const BoundCells& bound) {
-    bound({.cells = {}, .first = 0, .bounds = bounds});
+  survey(a, b, [&](const SurveyedPair& pair) {
+    pair.bound({.cells = {}, .first = 0, .bounds = bounds});
   });
   return bounds;
 }
@@ -83,10 +80,10 @@ TEST_CASE("a triangle over a plane: affine, to rounding") {
 
 TEST_CASE("every cell repeats, whichever others are asked about") {
   const Mesh a = icosphere(1, 2), b = icosphere(1.1, 3);
-  survey(a, b, [&](const SurveyedPair&, const BoundCells& bound) {
+  survey(a, b, [&](const SurveyedPair& pair) {
     std::vector<gpu::CellBounds> all(a.faces.size()), some(10);
-    bound({.cells = {}, .first = 0, .bounds = all});
-    bound({.cells = {}, .first = 50, .bounds = some});
+    pair.bound({.cells = {}, .first = 0, .bounds = all});
+    pair.bound({.cells = {}, .first = 50, .bounds = some});
     for (size_t i = 0; i < some.size(); ++i) {
       CHECK(some[i].highest == all[50 + i].highest);
       CHECK(some[i].lower_a == all[50 + i].lower_a);

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "host/survey/survey_with.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"
 
@@ -19,9 +18,7 @@ using namespace vkh;
 using namespace vkh::test;
 
 SurveyResult survey_of(const Mesh& a, const Mesh& b, const SurveyOptions& survey) {
-  SurveyResult result;
-  distance_with(solver(), {a, b}, {}, {.survey = survey_with(survey, result)});
-  return result;
+  return surveyed(a, b, survey);
 }
 
 SurveyOptions statistics_alone(std::vector<double> bands = {}) {

@@ -3,7 +3,7 @@
 // (docs/certificate.md, "Loops that a driver ends"): bounds stay true there, if wider.
 #include <doctest/doctest.h>
 
-#include "host/solve/run_hooks.h"
+#include "host/solve/held_pairs.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/cell_check.h"
 #include "tests/support/solver_bench.h"
@@ -20,13 +20,9 @@ Mesh in_the_middle() { return icosphere(1e-3, 1); }
 
 TEST_CASE("bounds of cells are true") {
   const Mesh a = in_the_middle(), b = around();
-  SolveOptions options;
-  options.wave_limit = 1;
   CellTally tally;
-  const Survey survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
-    CellCheck(pair, b).check(bound, 7, 16, tally);
-  };
-  distance_with(solver(), {a, b}, options, {.survey = survey});
+  hold_pair(solver(), {a, b}, {},
+            [&](const SurveyedPair& pair) { CellCheck(pair, b).check(pair.bound, 7, 16, tally); });
   CHECK(tally.cells == 16);
   CHECK(tally.below + tally.above + tally.means + tally.reached == 0);
 }

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/solve/run_hooks.h"
+#include "host/solve/held_pairs.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
@@ -249,8 +249,8 @@ TEST_CASE("what becomes known between submissions prunes, and nothing known chan
   SolveOptions options;
   options.memory_bytes = 256 << 10;  // many submissions
   const Report alone = solver().distance(a, b, options);
-  const auto with = [&](std::function<double()> known_since) {
-    return distance_with(solver(), {a, b}, options, {.known_since = std::move(known_since)});
+  const auto with = [&](const std::function<double()>& known_since) {
+    return distance_since(solver(), {a, b}, options, known_since);
   };
   check_same(with([] { return 0.0; }), alone);
   int asked = 0;

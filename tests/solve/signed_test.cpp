@@ -10,7 +10,6 @@
 
 #include "host/survey/sides.h"
 #include "host/survey/statistics.h"
-#include "host/survey/survey_with.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/error.h"
@@ -27,11 +26,10 @@ Mesh turned(Mesh mesh) {
 }
 
 SurveyResult signed_survey(const Mesh& a, const Mesh& b, SurveyOptions survey = {}) {
-  SurveyResult result;
   survey.is_signed = survey.statistics = survey.faces = true;
   survey.mean_tolerance = survey.face_tolerance = 0.002;
   if (!survey.effort) survey.effort = 100000;
-  distance_with(solver(), {a, b}, {}, {.survey = survey_with(survey, result)});
+  SurveyResult result = surveyed(a, b, survey);
   REQUIRE(result.sides);
   return result;
 }
@@ -139,14 +137,11 @@ TEST_CASE("a sphere through a cube: the signed mean and percentiles of a million
 }
 
 Verdict verdict_by(const Mesh& a, const Mesh& b, double over, double under) {
-  SurveyResult result;
-  SolveOptions options;
   SurveyOptions survey;
   const SidedLimits limits{{over, over}, {under, under}};
   survey.sided = limits;
   survey.effort = 100000;
-  options.limit = limits.larger();
-  distance_with(solver(), {a, b}, options, {.survey = survey_with(survey, result)});
+  const SurveyResult result = surveyed(a, b, survey);
   REQUIRE(result.sides);
   return verdict_of(result.sides->over, result.sides->under, limits);
 }
@@ -177,12 +172,10 @@ TEST_CASE("a sheet with two sides leaves what is between the limits undecided") 
 TEST_CASE("faces against each other are refused") {
   Mesh b = square_patch(3, 0.0);
   std::swap(b.faces[4].y, b.faces[4].z);
-  SurveyResult result;
   SurveyOptions survey;
   survey.is_signed = true;
   const Mesh a = square_patch(2, 0.1);
-  CHECK_THROWS_AS(distance_with(solver(), {a, b}, {}, {.survey = survey_with(survey, result)}),
-                  InputError);
+  CHECK_THROWS_AS(surveyed(a, b, survey), InputError);
 }
 
 // The witness is a corner of a cell: its distance, by hand, is at least what is told of it.

@@ -27,12 +27,6 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-SurveyResult surveyed(const Mesh& a, const Mesh& b, const SurveyOptions& survey) {
-  SurveyResult result;
-  distance_with(solver(), {a, b}, {}, {.survey = survey_with(survey, result)});
-  return result;
-}
-
 SurveyOptions all_of_it(std::vector<double> bands = {}) {
   SurveyOptions options;
   options.faces = options.statistics = true;
@@ -209,9 +203,9 @@ TEST_CASE("hard pairs: the field holds h, and every percentile is in order") {
     const HardPair hard = hard_pair(i, 300 + i);
     SurveyOptions options = all_of_it();
     options.effort = 30000;
-    SurveyResult r;
-    const Report report = distance_with(solver(), {hard.pair.a, hard.pair.b}, {},
-                                        {.survey = survey_with(options, r)});
+    const Report report = solver().distance(hard.pair.a, hard.pair.b);
+    options.upper = report.upper;
+    const SurveyResult r = survey_mesh(solver(), {hard.pair.a, hard.pair.b}, options);
     const double most = *std::max_element(r.field.upper.begin(), r.field.upper.end());
     const double least = *std::max_element(r.field.lower.begin(), r.field.lower.end());
     CHECK(most >= report.lower);
@@ -326,9 +320,14 @@ OnPlane on_plane(const Mesh& a, const SurveyOptions& options) {
   const Mesh b = square_patch(2, 0.0);
   OnPlane out;
   PlaneDevice device(a, 0.05);
-  const SurveyedPair pair{
-      .a = a, .b = b, .frame = {}, .displacement = 0, .farthest = 10, .on_cpu = true};
-  survey_with(options, out.result)(pair, std::ref(device));
+  const SurveyedPair pair{.a = a,
+                          .b = b,
+                          .frame = {},
+                          .displacement = 0,
+                          .farthest = 10,
+                          .on_cpu = true,
+                          .bound = std::ref(device)};
+  survey_with(options, out.result)(pair);
   out.asked = device.asked;
   out.submissions = device.submissions;
   out.most = device.most;

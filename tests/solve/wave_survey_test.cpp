@@ -90,14 +90,8 @@ TEST_CASE("weights add up to nearly what can be, and their error covers what is 
 }
 
 /// Runs a survey of its own on the pair, while it lies on the device.
-void on_device(const Mesh& a, const Mesh& b, const Survey& survey) {
-  distance_with(solver(), {a, b}, {}, {.survey = survey});
-}
-
-SurveyResult surveyed(const Mesh& a, const Mesh& b, const SurveyOptions& options) {
-  SurveyResult result;
-  on_device(a, b, survey_with(options, result));
-  return result;
+void on_device(const Mesh& a, const Mesh& b, const UsePair& survey) {
+  hold_pair(solver(), {a, b}, {}, survey);
 }
 
 SurveyOptions figures(std::vector<double> bands = {}) {
@@ -124,7 +118,7 @@ Said within(const CellStore& cells, const AreaWeights& weights, const Threshold&
 
 TEST_CASE("a tally is what the cells say, as near as floats tell, and outside of it") {
   const auto check = [](const Mesh& a, const Mesh& b) {
-    on_device(a, b, [&](const SurveyedPair& pair, const BoundCells&) {
+    on_device(a, b, [&](const SurveyedPair& pair) {
       const Areas areas = areas_of(a);
       const AreaWeights weights = weights_of(areas);
       SurveyOptions options = figures();
@@ -261,11 +255,11 @@ TEST_CASE("a survey that gets no more room ends there, and is true") {
   const auto check = [&](size_t most, int splits) {
     SurveyResult r;
     const SurveyOptions options = figures({0.2});
-    on_device(a, b, [&](const SurveyedPair& pair, const BoundCells& bound) {
+    on_device(a, b, [&](const SurveyedPair& pair) {
       ShortOfRoom cells(*pair.cells, most, splits);
       SurveyedPair other = pair;
       other.cells = &cells;
-      survey_with(options, r)(other, bound);
+      survey_with(options, r)(other);
     });
     CHECK(r.ended == SurveyEnd::kMemory);
     CHECK(r.cells <= most);

@@ -3,12 +3,14 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "tests/support/kernel_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
 #include "vkhausdorff/solver.h"
+#include "vkhausdorff/survey.h"
 
 namespace vkh::test {
 
@@ -27,6 +29,12 @@ struct ReferencePair {
 inline ReferencePair with_reference(std::string name, Mesh a, Mesh b) {
   const Interval exact = reference_hausdorff(a, b, 1e-9);
   return {std::move(name), std::move(a), std::move(b), exact};
+}
+
+/// Surveys a after h(a, b) is enclosed, as the program does.
+inline SurveyResult surveyed(const Mesh& a, const Mesh& b, SurveyOptions survey) {
+  survey.upper = std::min(survey.upper, solver().distance(a, b).upper);
+  return survey_mesh(solver(), {.a = a, .b = b}, survey);
 }
 
 /// Checks two runs that must be one run: bit by bit their results and their work.

@@ -61,14 +61,11 @@ void sweep_pair(Solver& solver, const SweepOptions& args, uint64_t i, Totals& to
   SurveyResult result;
   CellTally tally;
   int exponent = 0;
-  SolveOptions options;
-  options.time_limit_s = 5;
-  const Survey survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
+  hold_pair(solver, {hard.pair.a, hard.pair.b}, {}, [&](const SurveyedPair& pair) {
     exponent = pair.frame.exponent;
-    CellCheck(pair, hard.pair.b).check(bound, args.seed + i, args.cells, tally);
-    survey_with(asked, result)(pair, bound);
-  };
-  distance_with(solver, {hard.pair.a, hard.pair.b}, options, {.survey = survey});
+    CellCheck(pair, hard.pair.b).check(pair.bound, args.seed + i, args.cells, tally);
+    survey_with(asked, result)(pair);
+  });
   const uint64_t faces = wrong_faces(hard.pair, result.field, exponent, args.spoil);
   totals.cells.add(tally);
   totals.faces += result.field.face_count();

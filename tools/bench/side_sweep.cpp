@@ -156,14 +156,15 @@ double survey_ms(Solver& solver, const Mesh& a, const Mesh& b, const SweepOption
   survey.faces = survey.statistics = true;
   survey.is_signed = is_signed;
   survey.effort = args.effort;
-  distance_with(solver, {a, b}, {}, {.survey = survey_with(survey, result)});
+  survey.upper = solver.distance(a, b).upper;
+  result = survey_mesh(solver, {a, b}, survey);
   return result.ms;
 }
 
 // Halves the largest cells until there are so many, and tells the sides of all.
 Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const SweepOptions& args) {
   Checked checked;
-  const Survey survey = [&](const SurveyedPair& pair, const BoundCells& bound) {
+  hold_pair(solver, {a, b}, {}, [&](const SurveyedPair& pair) {
     CellStore store(a, 3e38f);
     for (bool is_first = true; is_first || store.count() < args.effort / 2; is_first = false) {
       std::vector<size_t> which;
@@ -179,16 +180,15 @@ Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const SweepOpti
       std::vector<gpu::CellBounds> bounds(all.size());
       for (size_t at = 0; at < all.size(); at += 4096) {
         const size_t end = std::min(all.size(), at + 4096);
-        bound({.cells = std::span(cells).subspan(at, end - at),
-               .first = 0,
-               .bounds = std::span(bounds).subspan(at, end - at)});
+        pair.bound({.cells = std::span(cells).subspan(at, end - at),
+                    .first = 0,
+                    .bounds = std::span(bounds).subspan(at, end - at)});
       }
       store.narrow(all, bounds);
     }
     const Sides sides(pair);
     checked = check_cells(pair, store, sides, sides.of(store), args.cells);
-  };
-  distance_with(solver, {a, b}, {}, {.survey = survey});
+  });
   return checked;
 }
 

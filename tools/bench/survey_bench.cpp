@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "host/survey/survey_with.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/manifest.h"
 #include "vkhausdorff/mesh_io.h"
@@ -66,9 +65,8 @@ void measure(Solver& solver, const Row& row, Arguments arguments) {
   arguments.survey.faces = arguments.field_tolerance > 0;
   arguments.survey.field_tolerance = arguments.field_tolerance * plain.upper;
   for (const double part : {0.25, 0.5, 0.75}) arguments.survey.bands.push_back(part * plain.upper);
-  SurveyResult result;
-  distance_with(solver, {a, b}, options, {.survey = survey_with(arguments.survey, result)});
-  print_row(row.pair, plain, result);
+  arguments.survey.upper = plain.upper;
+  print_row(row.pair, plain, survey_mesh(solver, {a, b}, arguments.survey));
 }
 
 int run(const Arguments& arguments) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,7 +16,7 @@
 namespace vkh {
 
 struct FramedPair;
-struct RunHooks;  // host/solve/run_hooks.h
+struct SurveyedPair;  // host/solve/cells.h
 
 /// Mesh B on the device with its BVH, for many A's. Made by a Solver, used by any Solver of the
 /// same device, outlives neither the device nor its owner's handles.
@@ -110,7 +111,11 @@ class Solver {
   SymmetricReport symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
 
  private:
-  friend Report distance_with(Solver&, const PairView&, const SolveOptions&, const RunHooks&);
+  // host/solve/held_pairs.h
+  friend Report distance_since(Solver&, const PairView&, const SolveOptions&,
+                               const std::function<double()>&);
+  friend void hold_pairs(Solver&, std::span<const PairView>, const SolveOptions&,
+                         const std::function<void(std::span<const SurveyedPair>)>&);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
