@@ -1,14 +1,16 @@
 // The steps after a distance is enclosed: surveys of all of A, certificates, the host's own check.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <new>
 
 #include "host/answer/steps.h"
 #include "host/base/decimal.h"
-#include "host/survey/distribution.h"
 #include "host/survey/map_shares.h"
+#include "host/survey/metrics_of.h"
 #include "host/survey/survey_with.h"
+#include "host/survey/surveying.h"
 #include "vkhausdorff/certificate.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/note.h"
@@ -109,7 +111,6 @@ void ask_for_metrics(const MetricsOptions& metrics, SurveyOptions& options) {
   options.normals_within = metrics.normals;
   options.cosine_tolerance =
       metrics.asks_for({"normal_consistency"}) ? MetricsOptions::kNormalTolerance : kNone;
-  options.keeps_distribution = true;
 }
 
 // `left`: the surveys that are still to come, this one among them.
@@ -185,23 +186,29 @@ void note(const Finishing& at, NoteCode code, const std::string& text) {
   at.answer.notes.push_back(note_of(code, text));
 }
 
-SurveyResult survey_of(const Finishing& at, const Side& side, const SurveyOptions& options) {
-  SurveyResult result;
-  result.ended = SurveyEnd::kCancelled;
-  if (!at.observer.is_to_go_on()) return result;
-  SolveOptions run = at.options;
-  run.progress = [&](const Progress&) { return at.observer.is_to_go_on(); };
+/// Calls `work`, which surveys; notes where there was no memory for it.
+template <class Work>
+void survey_or_note(const Finishing& at, const std::string& name, SurveyEnd& ended,
+                    const Work& work) {
   try {
-    hold_pair(at.solver, {.a = side.from, .b = side.to, .prepared = side.prepared}, run,
-              survey_with(options, result));
+    work();
   } catch (const std::bad_alloc&) {
-    result.ended = SurveyEnd::kMemory;
-    note(at, NoteCode::kSurvey, std::string("there was no memory to survey ") + side.name);
+    ended = SurveyEnd::kMemory;
+    note(at, NoteCode::kSurvey, "there was no memory to survey " + name);
   } catch (const MemoryError&) {
-    result.ended = SurveyEnd::kMemory;
-    note(at, NoteCode::kSurvey, std::string("the device had no memory to survey ") + side.name);
+    ended = SurveyEnd::kMemory;
+    note(at, NoteCode::kSurvey, "the device had no memory to survey " + name);
   }
-  return result;
+}
+
+PairView view_of(const Side& side) {
+  return {.a = side.from, .b = side.to, .prepared = side.prepared};
+}
+
+SolveOptions survey_run(const Finishing& at) {
+  SolveOptions run = at.options;
+  run.progress = [&at](const Progress&) { return at.observer.is_to_go_on(); };
+  return run;
 }
 
 /// The distance beyond which B is not covered by A: the limit, or a hundredth of A's diagonal where
@@ -251,97 +258,133 @@ void note_inside_out(const Finishing& at, const Side& side, const SurveyResult& 
            "its faces look inward; export it again with faces that look outward");
 }
 
-SurveyResult survey_side(const Finishing& at, const Side& side, size_t left) {
+/// The options of a survey after the search, and after the first survey where it is the second.
+SurveyOptions options_for(const Finishing& at, const Side& side, size_t left) {
   SurveyOptions options = survey_options(at, side, left);
   take_shares_of_a(at, side, options);
   options.upper = side.report.upper;
   const std::optional<double> beyond = uncovered_beyond(at, side);
   if (beyond) options.bands.insert(options.bands.end(), 2, *beyond);
-  SurveyResult result = survey_of(at, side, options);
+  return options;
+}
+
+/// Takes what a survey found to the report and the notes.
+void take_survey(const Finishing& at, const Side& side, const SurveyOptions& options,
+                 SurveyResult& result) {
   if (result.ended == SurveyEnd::kCancelled && at.observer.time_left_s() <= 0)
     result.ended = SurveyEnd::kTime;
+  const std::optional<double> beyond = uncovered_beyond(at, side);
   join(side.report, result, side.from.faces.size());
   add_shares(at, side.report.upper, result);
   note_inside_out(at, side, result);
   if (beyond && result.statistics) take_coverage(at, *beyond, *result.statistics);
   if (options.statistics && !result.statistics)
     note(at, NoteCode::kSurvey, std::string("there are no statistics of ") + side.name);
-  return result;
 }
 
-void compute_metrics(const MetricsOptions& options, Answer& answer) {
-  const SurveyResult &a = *answer.survey_a, &b = *answer.survey_b;
-  answer.metrics = metrics_of(options, {answer.a_to_b, *a.statistics, *a.distribution},
-                              {*answer.b_to_a, *b.statistics, *b.distribution});
+void survey_side(const Finishing& at, const Side& side, size_t left, SurveyResult& result) {
+  const SurveyOptions options = options_for(at, side, left);
+  survey_or_note(at, side.name, result.ended, [&] {
+    if (at.observer.is_to_go_on())
+      hold_pair(at.solver, view_of(side), survey_run(at), survey_with(options, result));
+  });
+  take_survey(at, side, options, result);
 }
 
-/// Goes on with a survey until the pooled percentile is narrow, or the other mesh's cells are more
-/// in its way. Returns whether cells were split. The reason why the survey ended stays.
-bool go_on_for_pooled(const Finishing& at, const Side& side, SurveyResult& found,
-                      const Distribution& other) {
-  SurveyOptions options = survey_options(at, side, 2);
-  const size_t spent = found.bounded - std::min(found.bounded, side.from.faces.size());
-  options.upper = side.report.upper;
-  options.effort = found.effort - std::min(found.effort, spent);
-  options.pooled = PooledSearch{.cells = found.distribution.get(),
-                                .other = &other,
-                                .share = options.percentiles[0],
-                                .known = at.answer.metrics->hd_p_pooled.value};
-  SurveyResult more = survey_of(at, side, options);
-  if (!more.distribution) {  // the cells may be lost: the figures stay as they are
-    found.distribution.reset();
-    return false;
+/// Both surveys of a pair that has metrics, while both meshes lie on the device: the pooled
+/// percentile goes on with the cells of either.
+class Measuring {
+ public:
+  Measuring(const Finishing& at, const std::vector<Side>& sides)
+      : at_(at),
+        sides_(sides),
+        results_{&at.answer.survey_a.emplace(), &at.answer.survey_b.emplace()} {}
+
+  void run() {
+    SurveyEnd ended = SurveyEnd::kCancelled;
+    survey_or_note(at_, "both meshes", ended, [&] {
+      const std::array<PairView, 2> views{view_of(sides_[0]), view_of(sides_[1])};
+      if (at_.observer.is_to_go_on())
+        hold_pairs(at_.solver, views, survey_run(at_), [&](std::span<const SurveyedPair> pairs) {
+          measure(pairs);
+          for (std::optional<Surveying>& survey : surveys_) survey.reset();
+        });
+    });
+    for (size_t i = taken_; i < 2; ++i) {  // there was no memory for both, or no time
+      results_[i]->ended = ended;
+      take(i);
+    }
+    if (!has_both()) add_unknown_shares();
   }
-  join(side.report, more, side.from.faces.size());
-  const bool has_split = more.cells > found.cells;
-  more.bounded += found.bounded;
-  more.ms += found.ms;
-  more.effort = found.effort;
-  more.ended = found.ended;
-  found = std::move(more);
-  return has_split;
-}
 
-/// Splits the cells of both meshes around the pooled percentile, which may lie far from their own
-/// percentiles: first those of the mesh that has more undecided area there.
-void narrow_pooled(const Finishing& at, const std::vector<Side>& sides) {
-  constexpr int kMostTurns = 4;
-  SurveyResult &a = *at.answer.survey_a, &b = *at.answer.survey_b;
-  bool goes_on = true;
-  for (int turn = 0; goes_on && turn < kMostTurns && at.observer.is_to_go_on(); ++turn) {
-    const Metric& pooled = at.answer.metrics->hd_p_pooled;
-    if (pooled.is_met || pooled.jump || !at.answer.metrics->asks_for("hd_p_pooled")) return;
-    const bool back =
-        b.distribution->undecided_area(pooled.value) > a.distribution->undecided_area(pooled.value);
-    goes_on = go_on_for_pooled(at, sides[back ? 1 : 0], back ? b : a,
-                               back ? *a.distribution : *b.distribution);
-    if (!a.distribution || !b.distribution) return;
-    compute_metrics(*at.question.metrics, at.answer);
+ private:
+  void measure(std::span<const SurveyedPair> pairs) {
+    for (size_t i = 0; i < 2; ++i) {
+      options_[i] = options_for(at_, sides_[i], 2 - i);
+      survey_or_note(at_, sides_[i].name, results_[i]->ended, [&] {
+        if (at_.observer.is_to_go_on())
+          surveys_[i].emplace(pairs[i], options_[i]).run(*results_[i]);
+      });
+      take(i);
+    }
+    if (!has_both()) return;
+    compute();
+    narrow_pooled();
   }
-}
 
-/// Adds the shares within each band as what is known of them without a survey: from 0 to 1.
-void add_unknown_shares(const Finishing& at) {
-  for (const Limit& band : bands_of(at.question, at.answer)) {
-    MetricsWithin& within = at.answer.metrics->within.emplace_back();
-    within.distance = typed_length({band.within, band.beyond});
-    for (const NamedShare& share : kNamedShares) (within.*share.figure).value = {0, 1};
+  void take(size_t i) {
+    take_survey(at_, sides_[i], options_[i], *results_[i]);
+    ++taken_;
   }
-}
 
-/// Computes the metrics from both surveys, and frees what only they needed. A survey that ended
-/// before it had figures leaves them unknown.
-void take_metrics(const Finishing& at, const std::vector<Side>& sides) {
-  SurveyResult &a = *at.answer.survey_a, &b = *at.answer.survey_b;
-  if (a.distribution && b.distribution) {
-    compute_metrics(*at.question.metrics, at.answer);
-    narrow_pooled(at, sides);
-  } else {
-    add_unknown_shares(at);
+  bool has_both() const { return results_[0]->statistics && results_[1]->statistics; }
+
+  void compute() {
+    const Distribution of_a = surveys_[0]->distribution(), of_b = surveys_[1]->distribution();
+    at_.answer.metrics =
+        metrics_of(*at_.question.metrics, {at_.answer.a_to_b, *results_[0]->statistics, of_a},
+                   {*at_.answer.b_to_a, *results_[1]->statistics, of_b});
   }
-  a.distribution.reset();
-  b.distribution.reset();
-}
+
+  /// Splits the cells of both meshes around the pooled percentile, which may lie far from their own
+  /// percentiles: first those of the mesh that has more undecided area there.
+  void narrow_pooled() {
+    constexpr int kMostTurns = 4;
+    for (int turn = 0; turn < kMostTurns && at_.observer.is_to_go_on(); ++turn) {
+      const Metric& pooled = at_.answer.metrics->hd_p_pooled;
+      if (pooled.is_met || pooled.jump || !at_.answer.metrics->asks_for("hd_p_pooled")) return;
+      const Distribution of_a = surveys_[0]->distribution(), of_b = surveys_[1]->distribution();
+      const bool back = of_b.undecided_area(pooled.value) > of_a.undecided_area(pooled.value);
+      if (!narrow(back ? 1 : 0, {.other = back ? &of_a : &of_b, .known = pooled.value})) return;
+      compute();
+    }
+  }
+
+  bool narrow(size_t i, PooledSearch search) {
+    search.share = options_[i].percentiles[0];
+    bool has_split = false;
+    survey_or_note(at_, sides_[i].name, results_[i]->ended, [&] {
+      has_split = surveys_[i]->narrow(search, survey_time(at_, 2), *results_[i]);
+    });
+    return has_split;
+  }
+
+  /// Adds the shares within each band as what is known of them without a survey: from 0 to 1.
+  void add_unknown_shares() {
+    for (const Limit& band : bands_of(at_.question, at_.answer)) {
+      MetricsWithin& within = at_.answer.metrics->within.emplace_back();
+      within.distance = typed_length({band.within, band.beyond});
+      for (const NamedShare& share : kNamedShares) (within.*share.figure).value = {0, 1};
+    }
+  }
+
+  const Finishing& at_;
+  const std::vector<Side>& sides_;
+  const std::array<SurveyResult*, 2> results_;
+  std::array<SurveyOptions, 2> options_;
+  std::array<std::optional<Surveying>, 2> surveys_;
+  size_t taken_ = 0;
+};
 
 std::optional<Proof> prove_side(const Finishing& at, const Side& side) {
   std::optional<Proof> proof;
@@ -383,9 +426,13 @@ void finish(const Question& question, Solver& solver, const AskedMeshes& meshes,
   const Finishing at{question, solver, observer, solve_options(question, answer), answer};
   std::vector<Side> sides{{meshes.a, meshes.b, meshes.prepared, "A", false, answer.a_to_b}};
   if (answer.b_to_a) sides.push_back({meshes.b, meshes.a, nullptr, "B", true, *answer.b_to_a});
-  for (size_t i = 0; question.asks_for_survey() && i < sides.size(); ++i)
-    (i == 0 ? answer.survey_a : answer.survey_b) = survey_side(at, sides[i], sides.size() - i);
-  if (question.metrics && answer.survey_a && answer.survey_b) take_metrics(at, sides);
+  if (question.metrics && sides.size() == 2) {
+    Measuring(at, sides).run();
+  } else if (question.asks_for_survey()) {
+    for (size_t i = 0; i < sides.size(); ++i)
+      survey_side(at, sides[i], sides.size() - i,
+                  (i == 0 ? answer.survey_a : answer.survey_b).emplace());
+  }
   if (observer.found) observer.found(answer);
   for (size_t i = 0; question.certificate && i < sides.size(); ++i)
     (i == 0 ? answer.proof_a : answer.proof_b) = prove_side(at, sides[i]);

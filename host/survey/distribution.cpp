@@ -1,31 +1,22 @@
 #include "host/survey/distribution.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "host/base/rounding.h"
 #include "host/survey/goals.h"
 
 namespace vkh {
 
-Distribution::Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest)
-    : cells_(std::move(cells)),
-      areas_(std::move(areas)),
-      frame_(pair.frame),
-      displacement_(pair.displacement),
-      largest_(largest),
-      rounding_(2 * pair.frame.length_up(pair.displacement)),
-      least_width_(pair.frame.length_up(vkh::least_width(pair)) + rounding_) {}
-
 std::vector<Enclosure> Distribution::shares_within(std::span<const double> ascending) const {
   std::vector<Threshold> at;
   at.reserve(ascending.size());
   for (const double distance : ascending)
-    at.push_back(threshold_at(frame_, displacement_, distance));
-  std::vector<Enclosure> shares = vkh::shares_within(cells_, areas_, at);
+    at.push_back(threshold_at(pair_.frame, pair_.displacement, distance));
+  std::vector<Enclosure> shares = distances_.shares_within(at);
+  const double largest = in_files(pair_, {0, distances_.highest()}).upper;
   for (size_t i = 0; i < shares.size(); ++i) {
     // By the threshold, which displacement moves, only nearly all area may be within the largest.
-    if (ascending[i] >= largest_) shares[i] = {1, 1};
+    if (ascending[i] >= largest) shares[i] = {1, 1};
     shares[i].estimate = shares[i].lower + (shares[i].upper - shares[i].lower) / 2;
   }
   return shares;
@@ -47,6 +38,12 @@ Enclosure Distribution::area() const {
   return {unit.length_down(unit.length_down(least)), unit.length_up(unit.length_up(most)),
           std::clamp(unit.length_up(unit.length_up(areas_.whole)), 0.0,
                      unit.length_up(unit.length_up(most)))};
+}
+
+double Distribution::rounding() const { return 2 * pair_.frame.length_up(pair_.displacement); }
+
+double Distribution::least_width() const {
+  return pair_.frame.length_up(vkh::least_width(pair_)) + rounding();
 }
 
 }  // namespace vkh

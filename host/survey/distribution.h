@@ -1,49 +1,36 @@
-// The certified distribution of d(x, B) over A: the cells of a survey that has ended.
+// The certified distribution of d(x, B) over A, in the files' units.
 #pragma once
 
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "host/survey/cell_store.h"
-#include "host/survey/statistics.h"
+#include "host/survey/area_figures.h"
 
 namespace vkh {
 
-/// Keeps the cells: 88 bytes for each. It refers to the mesh A of the pair, which must outlive
-/// it.
 class Distribution {
  public:
-  /// A has an area. `largest`: no distance is above it, in the files' units.
-  Distribution(const SurveyedPair& pair, CellStore cells, Areas areas, double largest);
-  Distribution(const Distribution&) = delete;
-  Distribution& operator=(const Distribution&) = delete;
+  /// By the cells as they are when it is asked. A has an area. All arguments outlive it.
+  Distribution(AreaDistances& distances, const Areas& areas, const SurveyedPair& pair)
+      : distances_(distances), areas_(areas), pair_(pair) {}
 
-  const CellStore& cells() const { return cells_; }
-  /// Gives the cells to a survey that goes on with them: this is of no use any more.
-  CellStore take_cells() { return std::move(cells_); }
-  const Areas& areas() const { return areas_; }
-
-  /// Returns the share of A's area within each of some distances, which are in the files' units and
-  /// ascend. Each has its middle as an estimate.
+  /// Returns the share of A's area within each of some distances, which ascend. Each has its middle
+  /// as an estimate.
   std::vector<Enclosure> shares_within(std::span<const double> ascending) const;
-  /// Returns the area that is undecided at both ends of an interval, in the files' units.
+  /// Returns the area that is undecided at both ends of an interval.
   double undecided_area(const Enclosure& at) const;
-  /// Encloses A's area, in the files' units.
+  /// Encloses A's area.
   Enclosure area() const;
-  /// Returns the width, in the files' units, that is enough for any length: a millionth of A's
-  /// diagonal, or what floats leave, and what storing the coordinates adds.
-  double least_width() const { return least_width_; }
-  /// Returns how much wider a length is for the coordinates as given, in the files' units.
-  double rounding() const { return rounding_; }
+  /// Returns how much wider a length is for the coordinates as given.
+  double rounding() const;
+  /// Returns the width that is enough for any length: a millionth of A's diagonal, or what floats
+  /// leave, and what storing the coordinates adds.
+  double least_width() const;
 
  private:
-  CellStore cells_;
-  const Areas areas_;
-  const Frame frame_;
-  const double displacement_;  // in the frame
-  const double largest_;
-  const double rounding_, least_width_;
+  AreaDistances& distances_;
+  const Areas& areas_;
+  const SurveyedPair& pair_;
 };
 
 }  // namespace vkh

@@ -6,6 +6,7 @@
 
 #include "host/base/decimal.h"
 #include "host/base/rounding.h"
+#include "host/survey/metrics_of.h"
 #include "host/survey/pooled.h"
 #include "vkhausdorff/error.h"
 
@@ -199,7 +200,7 @@ MetricsWithin within_of(const Enclosure& weight, const AreaWithin& a, const Area
 }
 
 // `between`: both parts' own percentiles, which it lies between.
-Metric pooled_metric(const PooledPart& a, const PooledPart& b, double share,
+Metric pooled_metric(const Distribution& a, const Distribution& b, double share,
                      const Enclosure& between, const Goals& goals) {
   Enclosure pooled = pooled_percentile(a, b, share, between);
   pooled.estimate = pooled.lower + (pooled.upper - pooled.lower) / 2;
@@ -291,8 +292,7 @@ Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
                    const MeasuredDirection& b) {
   const Statistics &of_a = a.statistics, &of_b = b.statistics;
   const Percentile &p = of_a.percentiles[0], &q = of_b.percentiles[0];
-  const PooledPart part_a = part_of(a.distribution), part_b = part_of(b.distribution);
-  const Enclosure weight = weight_of(part_a.area, part_b.area);
+  const Enclosure weight = weight_of(a.distribution.area(), b.distribution.area());
   const Goals goals(a, b);
   const Enclosure between{std::min(p.distance.lower, q.distance.lower),
                           std::max(p.distance.upper, q.distance.upper)};
@@ -305,7 +305,7 @@ Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
   m.hausdorff = goals.length(hausdorff_of(a.report, b.report), false);
   m.hd_p = goals.length(larger(p.distance, q.distance), false, p.jump || q.jump);
   m.hd_p_pooled = options.asks_for({"hd_p_pooled"})
-                      ? pooled_metric(part_a, part_b, p.share, between, goals)
+                      ? pooled_metric(a.distribution, b.distribution, p.share, between, goals)
                       : goals.length(between, false);
   m.masd = goals.length(half(sum(of_a.mean, of_b.mean)), means);
   m.assd = goals.length(weighted(weight, of_a.mean, of_b.mean), means);

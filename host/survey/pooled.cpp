@@ -1,7 +1,6 @@
 #include "host/survey/pooled.h"
 
 #include <algorithm>
-#include <memory>
 
 #include "host/survey/figures_asked.h"
 #include "vkhausdorff/metrics.h"
@@ -9,10 +8,11 @@
 namespace vkh {
 namespace {
 
-std::vector<Enclosure> pooled_shares(const PooledPart& a, const PooledPart& b,
+std::vector<Enclosure> pooled_shares(const Distribution& a, const Distribution& b,
                                      const std::vector<double>& ascending) {
-  const Enclosure weight = weight_of(a.area, b.area);
-  const std::vector<Enclosure> of_a = a.shares(ascending), of_b = b.shares(ascending);
+  const Enclosure weight = weight_of(a.area(), b.area());
+  const std::vector<Enclosure> of_a = a.shares_within(ascending);
+  const std::vector<Enclosure> of_b = b.shares_within(ascending);
   std::vector<Enclosure> shares;
   for (size_t i = 0; i < of_a.size(); ++i) shares.push_back(weighted(weight, of_a[i], of_b[i]));
   return shares;
@@ -33,16 +33,9 @@ constexpr int kPasses = 4;  // 20 bits
 
 }  // namespace
 
-PooledPart part_of(const Distribution& distribution) {
-  return {[&distribution](const std::vector<double>& ascending) {
-            return distribution.shares_within(ascending);
-          },
-          distribution.area()};
-}
-
 // A distance at which less than the share may be within is below the percentile; one at which it
 // surely is within is not. A percentage that is typed lies within two ulps of `share`.
-Enclosure pooled_percentile(const PooledPart& a, const PooledPart& b, double share,
+Enclosure pooled_percentile(const Distribution& a, const Distribution& b, double share,
                             const Enclosure& known) {
   const double down = share * (1 - 0x1p-52), up = std::min(share * (1 + 0x1p-52), 1.0);
   Enclosure e{known.lower, known.upper};
@@ -58,52 +51,51 @@ Enclosure pooled_percentile(const PooledPart& a, const PooledPart& b, double sha
 }
 
 // The same margins as those of one surface's percentile (FiguresAsked::is_gap).
-bool is_pooled_jump(const PooledPart& a, const PooledPart& b, const Enclosure& e, double enough) {
+bool is_pooled_jump(const Distribution& a, const Distribution& b, const Enclosure& e,
+                    double enough) {
   if (!(e.upper - e.lower > enough)) return false;
   const double beside = 0.4 * enough;
   const std::vector<Enclosure> at = pooled_shares(a, b, {e.lower + beside, e.upper - beside});
   return at[1].upper - at[0].lower <= FiguresAsked::kNearlyNone;
 }
 
-namespace {
-
-// The cells of a survey that goes on.
-PooledPart part_of_store(const CellStore& store, const Areas& areas, const SurveyedPair& pair,
-                         const Enclosure& area) {
-  return {[&](const std::vector<double>& ascending) {
-            std::vector<Threshold> at;
-            at.reserve(ascending.size());
-            for (const double d : ascending)
-              at.push_back(threshold_at(pair.frame, pair.displacement, d));
-            return shares_within(store, areas, at);
-          },
-          area};
+bool PooledGoals::is_worth_splits() const {
+  constexpr double kSmallPart = 0.25;
+  const double enough = std::max(MetricsOptions::kTolerance * known_.lower,
+                                 pair_.frame.length_down(least_width(pair_)));
+  return FiguresAsked::width(known_) > enough &&
+         !is_pooled_jump(own_, *search_.other, known_, enough) &&
+         own_.undecided_area(known_) >= kSmallPart * search_.other->undecided_area(known_);
 }
 
-double undecided(const PooledPart& part, const Enclosure& e) {
-  double share = 0;
-  for (const Enclosure& within : part.shares({e.lower, e.upper}))
-    share += within.upper - within.lower;
-  return share * part.area.upper;
+bool PooledGoals::look(const Tallied&) {
+  known_ = pooled_percentile(own_, *search_.other, search_.share, known_);
+  is_open_ = is_worth_splits();
+  return false;
 }
 
-}  // namespace
+std::vector<Threshold> PooledGoals::ends() const {
+  return {threshold_at(pair_.frame, pair_.displacement, known_.lower),
+          threshold_at(pair_.frame, pair_.displacement, known_.upper)};
+}
+
+// A cell scores by its undecided area at both ends.
+gpu::SurveyPlan PooledGoals::plan(double whole) const {
+  gpu::SurveyPlan plan{};
+  plan.of_whole = static_cast<float>(1 / whole);
+  for (const Threshold& end : ends()) add_open(end, 1, plan);
+  return plan;
+}
 
 Goal pooled_goal(const PooledSearch& search, const SurveyedPair& pair, const Areas& areas) {
-  constexpr double kSmallPart = 0.25;
-  const auto known = std::make_shared<Enclosure>(search.known);
-  return [search, &pair, &areas, known, area = search.cells->area()](const CellStore& store) {
-    const PooledPart own = part_of_store(store, areas, pair, area);
-    const PooledPart other = part_of(*search.other);
-    *known = pooled_percentile(own, other, search.share, *known);
-    const double enough = std::max(MetricsOptions::kTolerance * known->lower,
-                                   pair.frame.length_down(least_width(pair)));
-    if (known->upper - known->lower <= enough) return Scores{{}, true};
-    if (is_pooled_jump(own, other, *known, enough)) return Scores{};
-    if (undecided(own, *known) < kSmallPart * undecided(other, *known)) return Scores{};
-    return score_undecided(store, areas,
-                           {threshold_at(pair.frame, pair.displacement, known->lower),
-                            threshold_at(pair.frame, pair.displacement, known->upper)});
+  return [search = search, &pair, &areas](const CellStore& store) mutable {
+    StoredDistances distances(store, areas);
+    const Distribution own(distances, areas, pair);
+    PooledGoals goals(search, own, pair);
+    goals.look({});
+    if (goals.are_met()) return Scores{{}, true};
+    search.known = goals.known();
+    return score_undecided(store, areas, goals.ends());
   };
 }
 

@@ -2,35 +2,57 @@
 // w = a_A / (a_A + a_B).
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "host/survey/distribution.h"
 #include "host/survey/goals.h"
+#include "host/survey/wave_goals.h"
 
 namespace vkh {
 
-/// The shares of one surface's area within distances in the files' units, which ascend.
-using SharesWithin = std::function<std::vector<Enclosure>(const std::vector<double>&)>;
-
-/// One surface of two.
-struct PooledPart {
-  SharesWithin shares;
-  Enclosure area;
-};
-PooledPart part_of(const Distribution& distribution);
-
 /// The least distance that `share` of both surfaces' area is within. `known` encloses it.
-Enclosure pooled_percentile(const PooledPart& a, const PooledPart& b, double share,
+Enclosure pooled_percentile(const Distribution& a, const Distribution& b, double share,
                             const Enclosure& known);
 
 /// Whether an enclosure of that percentile that is wider than `enough` stays so at any effort:
 /// nearly no area lies between its ends.
-bool is_pooled_jump(const PooledPart& a, const PooledPart& b, const Enclosure& e, double enough);
+bool is_pooled_jump(const Distribution& a, const Distribution& b, const Enclosure& e,
+                    double enough);
 
-/// The goal of a survey that narrows the pooled percentile by the cells of one surface; all
-/// arguments must outlive it. It is left at a jump, and when the other surface's cells are more in
-/// the way.
+/// The wish for that percentile: to be narrowed by the cells of one surface.
+struct PooledSearch {
+  const Distribution* other;  ///< of the other one
+  double share = 0;
+  Enclosure known = {};  ///< encloses it, in the files' units
+};
+
+/// How far one surface's cells have got with it. They are left at a jump, and when the other
+/// surface's cells are more in the way. All arguments outlive it.
+class PooledGoals : public WaveGoals {
+ public:
+  PooledGoals(const PooledSearch& search, const Distribution& own, const SurveyedPair& pair)
+      : search_(search), own_(own), pair_(pair), known_(search.known) {}
+
+  std::vector<Threshold> thresholds() const override { return {}; }
+  bool look(const Tallied& tallied) override;
+  bool are_met() const override { return !is_open_; }
+  gpu::SurveyPlan plan(double whole) const override;
+  double part() const override { return Scores::kNearlyAll; }
+  const Enclosure& known() const { return known_; }
+  /// Both ends of it, in the frame.
+  std::vector<Threshold> ends() const;
+
+ private:
+  bool is_worth_splits() const;
+
+  const PooledSearch& search_;
+  const Distribution& own_;
+  const SurveyedPair& pair_;
+  Enclosure known_;
+  bool is_open_ = true;
+};
+
+/// The same goal for cells that the host holds.
 Goal pooled_goal(const PooledSearch& search, const SurveyedPair& pair, const Areas& areas);
 
 }  // namespace vkh

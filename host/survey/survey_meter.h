@@ -58,7 +58,14 @@ class SurveyMeter {
     return ms;
   }
   double device_ms() const { return device_ms_; }
-  double ms() const { return ms_since(start_); }
+  double ms() const { return ms_before_ + ms_since(start_); }
+  /// Gives what follows a time of its own, whatever ended what came before.
+  void go_on(double time_limit_s) {
+    ms_before_ = ms();
+    start_ = Clock::now();
+    ms_of_cells_ = 1000 * time_limit_s;
+    ended_ = SurveyEnd::kMet;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -70,7 +77,7 @@ class SurveyMeter {
     if (ended != SurveyEnd::kMet) return false;
     if (!is_wanted()) {
       ended = SurveyEnd::kCancelled;
-    } else if (ms() > limit_ms) {
+    } else if (ms_since(start_) > limit_ms) {
       ended = SurveyEnd::kTime;
     }
     return ended == SurveyEnd::kMet;
@@ -80,8 +87,8 @@ class SurveyMeter {
   static constexpr size_t kLeastBatch = 64,  // halves come in twos, and parts in fours
       kMostBatch = size_t{1} << 20;
   const SurveyOptions& options_;
-  const Clock::time_point start_ = Clock::now();
-  const double ms_of_cells_;
+  Clock::time_point start_ = Clock::now();
+  double ms_before_ = 0, ms_of_cells_;
   const size_t effort_;
   size_t spent_ = 0;
   size_t batch_;

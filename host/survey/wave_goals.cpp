@@ -12,16 +12,6 @@ namespace {
 constexpr int kPieces = 16;    // into which a tally cuts each range of a percentile
 constexpr size_t kOfBand = 3;  // thresholds: the band, and a least width before and behind it
 
-struct OpenShares {
-  gpu::SurveyPlan& plan;
-
-  void add(const Threshold& at, double weight) {
-    if (plan.open_count == gpu::kSurveyOpen) return;  // the others are sought later
-    plan.open[plan.open_count] = {static_cast<float>(at.down), static_cast<float>(at.up)};
-    plan.shares[plan.open_count++] = static_cast<float>(weight);
-  }
-};
-
 // A figure's whole width scores 1; it is not 0 where the figure is open, but for shares of
 // percentiles, whose ends are known by the thresholds alone.
 double weight_of_width(double width) { return 1 / std::max(width, 1e-9); }
@@ -30,7 +20,13 @@ double squares_width(const Enclosure& rms) { return rms.upper * rms.upper - rms.
 
 }  // namespace
 
-WaveGoals::WaveGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest)
+void add_open(const Threshold& at, double weight, gpu::SurveyPlan& plan) {
+  if (plan.open_count == gpu::kSurveyOpen) return;
+  plan.open[plan.open_count] = {static_cast<float>(at.down), static_cast<float>(at.up)};
+  plan.shares[plan.open_count++] = static_cast<float>(weight);
+}
+
+FigureGoals::FigureGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest)
     : asked_(options, pair) {
   // The share that is kept is sought as narrowly as any share.
   if (options.max_distance) asked_.options.bands.push_back(options.max_distance->within);
@@ -43,24 +39,24 @@ WaveGoals::WaveGoals(const SurveyOptions& options, const SurveyedPair& pair, dou
   }
 }
 
-bool WaveGoals::is_open(size_t band) const {
+bool FigureGoals::is_open(size_t band) const {
   const Band& b = bands_[band];
   return !asked_.is_enough(b.share, band) && (!b.is_atom || asked_.options.enough);
 }
 
-bool WaveGoals::is_open(const Quantile& p) const {
+bool FigureGoals::is_open(const Quantile& p) const {
   return asked_.options.narrows_percentiles && asked_.is_open(p.known) && !p.is_gap;
 }
 
-bool WaveGoals::is_open_mean() const {
+bool FigureGoals::is_open_mean() const {
   return asked_.options.narrows_mean && asked_.is_open(moments_.mean);
 }
-bool WaveGoals::is_open_rms() const {
+bool FigureGoals::is_open_rms() const {
   return asked_.options.narrows_rms && asked_.is_open(moments_.rms);
 }
 
 // All that is known, and closer about both ends.
-std::vector<Threshold> WaveGoals::thresholds_of(const Quantile& p) const {
+std::vector<Threshold> FigureGoals::thresholds_of(const Quantile& p) const {
   std::vector<Threshold> at;
   const auto cut = [&](double from, double to) {
     for (int k = 1; k < kPieces; ++k) {
@@ -77,7 +73,7 @@ std::vector<Threshold> WaveGoals::thresholds_of(const Quantile& p) const {
   return at;
 }
 
-std::vector<Threshold> WaveGoals::thresholds() const {
+std::vector<Threshold> FigureGoals::thresholds() const {
   std::vector<Threshold> at;
   for (const Band& band : bands_) {
     at.push_back(band.at);
@@ -94,8 +90,8 @@ std::vector<Threshold> WaveGoals::thresholds() const {
 
 // A distance at which less than the share may be within is below the percentile; one at which it
 // surely is within is not.
-void WaveGoals::look(Quantile& p, std::span<const Threshold> at,
-                     std::span<const Enclosure> shares) const {
+void FigureGoals::look(Quantile& p, std::span<const Threshold> at,
+                       std::span<const Enclosure> shares) const {
   const size_t probes = at.size() - 2;
   p.is_gap = asked_.is_gap(p.known, shares[probes], shares[probes + 1]);
   p.first = p.known.upper;
@@ -119,14 +115,14 @@ void WaveGoals::look(Quantile& p, std::span<const Threshold> at,
 
 // The ends must be close to where the cells have them: to see whether they are narrow, and what to
 // split; and where nearly no area lies between, to see that.
-bool WaveGoals::is_coarse(const Quantile& p) const {
+bool FigureGoals::is_coarse(const Quantile& p) const {
   if (!is_open(p)) return false;
   const bool may_be_gap = asked_.is_gap(p.known, p.at_first, p.at_last);
   const double width = FiguresAsked::width(p.known);
   return p.doubt() > (may_be_gap ? std::min(width, asked_.beside(p.known)) : width) / 8;
 }
 
-bool WaveGoals::look(const Tallied& tallied) {
+bool FigureGoals::look(const Tallied& tallied) {
   const std::vector<Threshold> at = thresholds();
   const std::span<const Enclosure> shares = tallied.shares;
   size_t k = 0;
@@ -150,7 +146,7 @@ bool WaveGoals::look(const Tallied& tallied) {
   return may_be_closer;
 }
 
-bool WaveGoals::are_met() const {
+bool FigureGoals::are_met() const {
   for (size_t i = 0; i < bands_.size(); ++i) {
     if (is_open(i)) return false;
   }
@@ -159,27 +155,27 @@ bool WaveGoals::are_met() const {
                       [&](const Quantile& p) { return is_open(p); });
 }
 
-gpu::SurveyPlan WaveGoals::plan(double whole) const {
+gpu::SurveyPlan FigureGoals::plan(double whole) const {
   gpu::SurveyPlan plan{};
   plan.of_whole = static_cast<float>(1 / whole);
   if (is_open_mean())
     plan.mean = static_cast<float>(weight_of_width(FiguresAsked::width(moments_.mean)));
   if (is_open_rms()) plan.square = static_cast<float>(weight_of_width(squares_width(moments_.rms)));
-  OpenShares open{plan};
   for (size_t i = 0; i < bands_.size(); ++i) {
-    if (is_open(i)) open.add(bands_[i].at, weight_of_width(FiguresAsked::width(bands_[i].share)));
+    if (is_open(i))
+      add_open(bands_[i].at, weight_of_width(FiguresAsked::width(bands_[i].share)), plan);
   }
   for (const Quantile& p : quantiles_) {
     if (!is_open(p)) continue;
     const double weight =
         weight_of_width(FiguresAsked::width(p.at_first) + FiguresAsked::width(p.at_last));
-    open.add({p.first, p.first}, weight);
-    open.add({p.last, p.last}, weight);
+    add_open({p.first, p.first}, weight, plan);
+    add_open({p.last, p.last}, weight, plan);
   }
   return plan;
 }
 
-double WaveGoals::part() const {
+double FigureGoals::part() const {
   double part = 0;
   const auto raise = [&](double width, double enough) {
     part = std::max(part, part_to_split(width, enough));
@@ -197,7 +193,7 @@ double WaveGoals::part() const {
   return part;
 }
 
-std::vector<Enclosure> WaveGoals::percentiles() const {
+std::vector<Enclosure> FigureGoals::percentiles() const {
   std::vector<Enclosure> all;
   for (const Quantile& p : quantiles_) all.push_back(p.known);
   return all;

@@ -16,21 +16,38 @@ struct Tallied {
   double lowest = 0, highest = 0;  ///< no distance is less, or more
 };
 
+/// What cells are split for.
 class WaveGoals {
  public:
-  /// No distance is above `farthest`, in the frame.
-  WaveGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest);
-
+  virtual ~WaveGoals() = default;
   /// The thresholds for the next tally. They follow from what is known.
-  std::vector<Threshold> thresholds() const;
+  virtual std::vector<Threshold> thresholds() const = 0;
   /// Takes in a tally at them. Returns whether another one would narrow a percentile before any
   /// cell is split, since the thresholds were farther apart than the cells' bounds are.
-  bool look(const Tallied& tallied);
-  bool are_met() const;
+  virtual bool look(const Tallied& tallied) = 0;
+  /// Whether splits would gain nothing.
+  virtual bool are_met() const = 0;
   /// Scores a cell by its part of the widths of all figures that are open.
-  gpu::SurveyPlan plan(double whole) const;
+  virtual gpu::SurveyPlan plan(double whole) const = 0;
   /// So much of all scores is worth a wave's splits.
-  double part() const;
+  virtual double part() const = 0;
+};
+
+/// Scores a cell by its undecided area at a threshold. A plan has room for some: the others are
+/// sought later.
+void add_open(const Threshold& at, double weight, gpu::SurveyPlan& plan);
+
+/// The figures that options ask for.
+class FigureGoals : public WaveGoals {
+ public:
+  /// No distance is above `farthest`, in the frame.
+  FigureGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest);
+
+  std::vector<Threshold> thresholds() const override;
+  bool look(const Tallied& tallied) override;
+  bool are_met() const override;
+  gpu::SurveyPlan plan(double whole) const override;
+  double part() const override;
 
   /// Encloses the percentiles.
   std::vector<Enclosure> percentiles() const;

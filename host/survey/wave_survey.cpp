@@ -116,6 +116,7 @@ bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
     ended = SurveyEnd::kMemory;
     return false;
   }
+  faces_.clear();
   const size_t fresh = kParts * choice.count();
   spent_ += fresh;
   meter_.spend(fresh);
@@ -124,14 +125,12 @@ bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
   return false;
 }
 
-SurveyEnd WaveSurvey::refine(const SurveyOptions& options, size_t effort) {
-  WaveGoals goals(options, pair_, std::ldexp(1.0, unit_ - 127));
+SurveyEnd WaveSurvey::refine(WaveGoals& goals, size_t effort) {
   SurveyEnd ended = SurveyEnd::kMet;
   do {
     while (goals.look(tally(goals.thresholds()))) {
     }
   } while (!goals.are_met() && split(goals, effort, ended));
-  known_ = goals.percentiles();
   return std::max(ended, meter_.ended());
 }
 

@@ -3,6 +3,7 @@
 // and plans.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,17 +26,17 @@ class WaveSurvey : public AreaDistances {
   /// outlive it; pair.cells is there.
   WaveSurvey(const SurveyedPair& pair, const Areas& areas, SurveyMeter& meter, float farthest);
 
-  /// Refines until all figures are as narrow as they were asked for, or cannot be, by `effort`
-  /// bounded cells at most.
-  SurveyEnd refine(const SurveyOptions& options, size_t effort);
+  /// Refines until the goals are met, or cannot be, by `effort` bounded cells at most since the
+  /// survey began.
+  SurveyEnd refine(WaveGoals& goals, size_t effort);
 
   size_t count() const { return cells_.count(); }
   /// Returns a distance that some point of each face reaches; and then one that none exceeds.
   const std::vector<float>& faces();
   /// Hands the cells to the host.
   CellStore store();
-  /// Encloses the percentiles that refine() was asked for.
-  const std::vector<Enclosure>& known() const { return known_; }
+  /// No distance is above it, in the frame.
+  double farthest() const { return std::ldexp(1.0, unit_ - 127); }
 
   std::vector<Enclosure> shares_within(std::span<const Threshold> thresholds) override;
   std::vector<Enclosure> percentiles(const PercentileSearch& search) override;
@@ -54,7 +55,6 @@ class WaveSurvey : public AreaDistances {
   SurveyMeter& meter_;
   const int unit_;
   size_t spent_ = 0;
-  std::vector<Enclosure> known_;
   std::vector<float> faces_;  // none until they are asked for
 };
 

@@ -16,7 +16,9 @@
 #include <vector>
 
 #include "host/answer/exit_code.h"
-#include "host/survey/distribution.h"
+#include "host/solve/held_pairs.h"
+#include "host/survey/metrics_of.h"
+#include "host/survey/surveying.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/asking.h"
@@ -28,39 +30,23 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-struct Measured {
-  SymmetricReport distance;
-  SurveyResult a, b;
-};
-
-Measured measured(const Mesh& a, const Mesh& b, SurveyOptions options) {
-  options.statistics = options.keeps_distribution = true;
-  Measured m;
-  SolveOptions run;
-  run.tolerance = 1e-4;
-  m.distance = solver().symmetric(a, b, run);
-  options.upper = m.distance.a_to_b.upper;
-  m.a = survey_mesh(solver(), {.a = a, .b = b}, options);
-  options.upper = m.distance.b_to_a.upper;
-  m.b = survey_mesh(solver(), {.a = b, .b = a}, options);
-  return m;
+Answer answered(Question question, const Mesh& a, const Mesh& b) {
+  Solver* const on[] = {&solver()};
+  return Asking(question, std::make_shared<const ReadMesh>(a), std::make_shared<const ReadMesh>(b),
+                on)
+      .answer();
 }
 
-Metrics metrics_between(const Mesh& a, const Mesh& b, double percentile, std::vector<double> bands,
-                        std::optional<size_t> effort = {}, std::optional<double> normals = {}) {
-  SurveyOptions options;
-  options.normals_within = normals;
-  options.agreeing_tolerance = options.area_tolerance;
-  options.percentiles = {percentile / 100};
-  options.area_tolerance = MetricsOptions::kShareTolerance / 2;
-  options.bands = std::move(bands);
-  options.effort = effort;
-  const Measured m = measured(a, b, options);
-  REQUIRE(m.a.distribution);
-  REQUIRE(m.b.distribution);
-  return metrics_of({.percentile = percentile, .normals = normals},
-                    {m.distance.a_to_b, *m.a.statistics, *m.a.distribution},
-                    {m.distance.b_to_a, *m.b.statistics, *m.b.distribution});
+Metrics metrics_between(const Mesh& a, const Mesh& b, double percentile,
+                        const std::vector<double>& bands, std::optional<size_t> effort = {},
+                        std::optional<double> normals = {}) {
+  Question question;
+  question.tolerance = {.requested = "1e-4", .number = 1e-4};
+  question.metrics = MetricsOptions{.percentile = percentile, .normals = normals};
+  for (const double band : bands)
+    question.bands.push_back({.number = band, .of = Length::Of::kFiles, .is_double = true});
+  question.budget.effort = effort;
+  return *answered(question, a, b).metrics;
 }
 
 // Truths are computed in double, which is off by less.
@@ -396,50 +382,56 @@ TEST_CASE("generated pairs with exact distributions: every figure is enclosed") 
 Answer answered(const Mesh& a, const Mesh& b, double percentile = 95) {
   Question question;
   question.metrics.emplace().percentile = percentile;
-  Solver* const on[] = {&solver()};
-  return Asking(question, std::make_shared<const ReadMesh>(a), std::make_shared<const ReadMesh>(b),
-                on)
-      .answer();
+  return answered(question, a, b);
 }
 
-Metrics metrics_in(const Measured& m, double percentile) {
-  return metrics_of({.percentile = percentile},
-                    {m.distance.a_to_b, *m.a.statistics, *m.a.distribution},
-                    {m.distance.b_to_a, *m.b.statistics, *m.b.distribution});
-}
+/// Both surveys of a pair on the device, with a percentile each.
+struct Both {
+  Both(std::span<const SurveyedPair> pairs, const SurveyOptions& options, const SymmetricReport& r)
+      : in_a(pairs[0], options), in_b(pairs[1], options), report(r) {
+    in_a.run(a);
+    in_b.run(b);
+  }
+  Metrics metrics() {
+    const Distribution of_a = in_a.distribution(), of_b = in_b.distribution();
+    return metrics_of({.percentile = 30}, {report.a_to_b, *a.statistics, of_a},
+                      {report.b_to_a, *b.statistics, of_b});
+  }
+  Surveying in_a, in_b;
+  const SymmetricReport& report;
+  SurveyResult a, b;
+};
 
 TEST_CASE("a survey that goes on for the pooled percentile narrows it, and stays true") {
   const Mesh a = cube(1.0), b = icosphere(1.3, 3);
   SurveyOptions options;
   options.percentiles = {0.3};
   options.mean_tolerance = 0.5;
-  Measured m = measured(a, b, options);
-  const Metrics wide = metrics_in(m, 30);
-  REQUIRE_FALSE(wide.hd_p_pooled.is_met);
-  Enclosure known = wide.hd_p_pooled.value;
-  for (int turn = 0; turn < 6; ++turn) {
-    const bool back =
-        m.b.distribution->undecided_area(known) > m.a.distribution->undecided_area(known);
-    SurveyResult& found = back ? m.b : m.a;
-    options.pooled =
-        PooledSearch{found.distribution.get(),
-                     back ? m.a.distribution.get() : m.b.distribution.get(), 0.3, known};
-    options.statistics = options.keeps_distribution = true;
-    const SurveyResult more =
-        survey_mesh(solver(), {.a = back ? b : a, .b = back ? a : b}, options);
-    REQUIRE(more.distribution);
-    found = more;
-    const Metrics now = metrics_in(m, 30);
-    known = now.hd_p_pooled.value;
-    CHECK(known.lower >= wide.hd_p_pooled.value.lower);
-    CHECK(known.upper <= wide.hd_p_pooled.value.upper);
-    if (now.hd_p_pooled.is_met) break;
-  }
-  CHECK(metrics_in(m, 30).hd_p_pooled.is_met);
-  // The same, by surveys that were narrow from the start.
+  options.statistics = true;
+  const SymmetricReport report = solver().symmetric(a, b);
+  const PairView views[] = {{.a = a, .b = b}, {.a = b, .b = a}};
   const Enclosure narrow = metrics_between(a, b, 30, {}).hd_p_pooled.value;
-  CHECK(known.lower <= narrow.upper);
-  CHECK(known.upper >= narrow.lower);
+  hold_pairs(solver(), views, {}, [&](std::span<const SurveyedPair> pairs) {
+    Both both(pairs, options, report);
+    const Metrics wide = both.metrics();
+    REQUIRE_FALSE(wide.hd_p_pooled.is_met);
+    Enclosure known = wide.hd_p_pooled.value;
+    for (int turn = 0; turn < 6 && !both.metrics().hd_p_pooled.is_met; ++turn) {
+      const Distribution of_a = both.in_a.distribution(), of_b = both.in_b.distribution();
+      const bool back = of_b.undecided_area(known) > of_a.undecided_area(known);
+      const PooledSearch search{.other = back ? &of_a : &of_b, .share = 0.3, .known = known};
+      const size_t before = back ? both.b.bounded : both.a.bounded;
+      CHECK((back ? both.in_b : both.in_a).narrow(search, 60, back ? both.b : both.a));
+      CHECK((back ? both.b.bounded : both.a.bounded) > before);
+      known = both.metrics().hd_p_pooled.value;
+      CHECK(known.lower >= wide.hd_p_pooled.value.lower);
+      CHECK(known.upper <= wide.hd_p_pooled.value.upper);
+    }
+    CHECK(both.metrics().hd_p_pooled.is_met);
+    // The same, by surveys that were narrow from the start.
+    CHECK(known.lower <= narrow.upper);
+    CHECK(known.upper >= narrow.lower);
+  });
 }
 
 TEST_CASE("a pooled percentile in a gap of the distribution is a jump, and costs no effort") {

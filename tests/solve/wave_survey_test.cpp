@@ -124,7 +124,8 @@ TEST_CASE("a tally is what the cells say, as near as floats tell, and outside of
       SurveyOptions options = figures();
       SurveyMeter meter(options, pair.on_cpu, false);
       WaveSurvey waves(pair, areas, meter, 4);
-      waves.refine(options, 5000);
+      FigureGoals goals(options, pair, waves.farthest());
+      waves.refine(goals, 5000);
       std::vector<Threshold> at;
       for (int k = 0; k < 600; ++k) at.push_back({k / 400.0, k / 400.0 + 1e-4});  // three tallies
       const std::vector<Enclosure> shares = waves.shares_within(at);

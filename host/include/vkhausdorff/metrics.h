@@ -106,18 +106,6 @@ std::vector<std::string> checked_figures(const std::string& option,
 /// The name with the percentile in place of p: "hd95_pooled".
 std::string name_of(const NamedMetric& metric, double percentile);
 
-/// One direction: its interval, and the survey of the mesh that it begins at, whose only percentile
-/// is the one that is asked for.
-struct MeasuredDirection {
-  const Report& report;
-  const Statistics& statistics;
-  const Distribution& distribution;
-};
-
-/// Computes the figures. Both directions have the same bands.
-Metrics metrics_of(const MetricsOptions& options, const MeasuredDirection& a,
-                   const MeasuredDirection& b);
-
 // The formulas, for tests: each encloses what it is of numbers within its arguments.
 
 /// w x + (1 - w) y for w in `weight`, which lies in [0, 1]; x and y are not negative.

@@ -35,18 +35,6 @@ const char* survey_end_name(SurveyEnd end);
 /// on a GPU what the goals of all but a few of the public pairs need (docs/log/measurements.md).
 size_t default_effort(bool on_cpu);
 
-class Distribution;
-
-/// The wish for the percentile of two surfaces together, at the share of
-/// SurveyOptions::percentiles.
-struct PooledSearch {
-  /// An earlier survey of the same pair, whose cells are taken, and the other surface's.
-  Distribution* cells = nullptr;
-  const Distribution* other = nullptr;
-  double share = 0;
-  Enclosure known = {};  ///< encloses it, in the files' units
-};
-
 struct SurveyOptions {
   bool faces = false;  ///< each face's bounds are to be narrow; otherwise it is bounded once
   /// The width to reach, in the files' units; 0: `face_tolerance` of what the largest distance is
@@ -79,10 +67,6 @@ struct SurveyOptions {
   std::optional<double> normals_within = {};
   /// The widths to reach of the mean cosine, and of agreeing shares.
   double cosine_tolerance = 0.01, agreeing_tolerance = 0.001;
-  /// With statistics: result.distribution is wanted, as metrics_of() needs it.
-  bool keeps_distribution = false;
-  /// If set: the survey goes on with cells of an earlier one, and has this goal alone.
-  std::optional<PooledSearch> pooled = {};
   std::optional<MapOptions> map = {};  ///< result.map is wanted
   /// The sides of A are wanted, of 95 % of its area that is farther from B than a hundredth of the
   /// largest distance: result.sides.
@@ -119,8 +103,6 @@ struct SurveyResult {
   std::optional<SignedFigures> sides = {};
   std::optional<CellMap> map = {};       ///< none where A has no area
   std::optional<MapShares> shares = {};  ///< those that pictures of the map name
-  /// With SurveyOptions::keeps_distribution and `statistics`: it refers to the surveyed A.
-  std::shared_ptr<Distribution> distribution = {};
   SurveyEnd ended = SurveyEnd::kCancelled;
   bool is_met() const { return ended == SurveyEnd::kMet; }
   size_t effort = 0;  ///< SurveyOptions::effort, or the default
