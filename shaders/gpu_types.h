@@ -481,6 +481,7 @@ struct SurveyEdge {
 // The host's questions to a survey's cells. The edges ascend, in both members.
 struct SurveyPlan {
   uint edge_count, open_count;
+  uint moments;        // 1: a tally adds up means and mean squares, too
   float of_whole;      // 1 over the weight of all faces
   float mean, square;  // what a width of the mean, and of the mean square, scores; 0: nothing
   SurveyEdge edges[kSurveyEdges];  // of the tally

@@ -1,6 +1,7 @@
 #include "host/survey/pooled.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "host/survey/figures_asked.h"
 #include "vkhausdorff/metrics.h"
@@ -20,7 +21,7 @@ std::vector<Enclosure> pooled_shares(const Distribution& a, const Distribution& 
 
 // Distances that cut an interval, without its own ends; they ascend.
 std::vector<double> cuts_of(const Enclosure& e) {
-  constexpr int kSections = 32;
+  constexpr int kSections = 256;
   std::vector<double> cuts;
   for (int k = 1; k < kSections; ++k) {
     const double cut = e.lower + (e.upper - e.lower) * k / kSections;
@@ -29,7 +30,7 @@ std::vector<double> cuts_of(const Enclosure& e) {
   return cuts;
 }
 
-constexpr int kPasses = 4;  // 20 bits
+constexpr int kMostRounds = 3;  // 24 bits
 
 }  // namespace
 
@@ -39,7 +40,10 @@ Enclosure pooled_percentile(const Distribution& a, const Distribution& b, double
                             const Enclosure& known) {
   const double down = share * (1 - 0x1p-52), up = std::min(share * (1 + 0x1p-52), 1.0);
   Enclosure e{known.lower, known.upper};
-  for (int pass = 0; pass < kPasses; ++pass) {
+  double before = std::numeric_limits<double>::infinity();
+  // Where cuts no longer halve it, the cells' bounds are what is wide.
+  for (int pass = 0; pass < kMostRounds && 2 * FiguresAsked::width(e) < before; ++pass) {
+    before = FiguresAsked::width(e);
     const std::vector<double> cuts = cuts_of(e);
     const std::vector<Enclosure> within = pooled_shares(a, b, cuts);
     for (size_t i = 0; i < cuts.size(); ++i) {

@@ -9,7 +9,7 @@
 namespace vkh {
 namespace {
 
-constexpr int kPieces = 16;    // into which a tally cuts each range of a percentile
+constexpr int kPieces = 5;     // into which a tally cuts each range of a percentile
 constexpr size_t kOfBand = 3;  // thresholds: the band, and a least width before and behind it
 
 // A figure's whole width scores 1; it is not 0 where the figure is open, but for shares of
@@ -73,15 +73,18 @@ std::vector<Threshold> FigureGoals::thresholds_of(const Quantile& p) const {
   return at;
 }
 
+// A goal that is met stays so: what is known of it holds for parts of cells, too.
 std::vector<Threshold> FigureGoals::thresholds() const {
   std::vector<Threshold> at;
-  for (const Band& band : bands_) {
+  for (size_t i = 0; i < bands_.size(); ++i) {
+    if (!is_open(i)) continue;
+    const Band& band = bands_[i];
     at.push_back(band.at);
     at.push_back({band.at.down - asked_.least, band.at.down - asked_.least});
     at.push_back({band.at.up + asked_.least, band.at.up + asked_.least});
   }
   for (const Quantile& p : quantiles_) {
-    if (!asked_.options.narrows_percentiles) break;
+    if (!is_open(p)) continue;
     const std::vector<Threshold> some = thresholds_of(p);
     at.insert(at.end(), some.begin(), some.end());
   }
@@ -126,15 +129,17 @@ bool FigureGoals::look(const Tallied& tallied) {
   const std::vector<Threshold> at = thresholds();
   const std::span<const Enclosure> shares = tallied.shares;
   size_t k = 0;
-  for (Band& band : bands_) {
+  for (size_t i = 0; i < bands_.size(); ++i) {
+    if (!is_open(i)) continue;
+    Band& band = bands_[i];
     band.share = shares[k];
     band.is_atom = asked_.is_atom(shares[k], shares[k + 1], shares[k + 2]);
     k += kOfBand;
   }
-  moments_ = tallied.moments;
+  if (wants_moments()) moments_ = tallied.moments;
   bool may_be_closer = false;
   for (Quantile& p : quantiles_) {
-    if (!asked_.options.narrows_percentiles) break;
+    if (!is_open(p)) continue;
     const double before = p.doubt();
     const size_t count = thresholds_of(p).size();
     look(p, std::span(at).subspan(k, count), shares.subspan(k, count));

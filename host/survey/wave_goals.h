@@ -2,6 +2,7 @@
 // next wave's cells score.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace vkh {
 
 /// The answer of a tally at the thresholds that it was asked, in the frame.
 struct Tallied {
-  std::vector<Enclosure> shares;  ///< of A's area within each
-  Moments moments;
+  std::vector<Enclosure> shares;   ///< of A's area within each
+  Moments moments;                 ///< if they were asked for
   double lowest = 0, highest = 0;  ///< no distance is less, or more
 };
 
@@ -22,6 +23,8 @@ class WaveGoals {
   virtual ~WaveGoals() = default;
   /// The thresholds for the next tally. They follow from what is known.
   virtual std::vector<Threshold> thresholds() const = 0;
+  /// Whether the next tally is asked for moments, too.
+  virtual bool wants_moments() const = 0;
   /// Takes in a tally at them. Returns whether another one would narrow a percentile before any
   /// cell is split, since the thresholds were farther apart than the cells' bounds are.
   virtual bool look(const Tallied& tallied) = 0;
@@ -44,6 +47,7 @@ class FigureGoals : public WaveGoals {
   FigureGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest);
 
   std::vector<Threshold> thresholds() const override;
+  bool wants_moments() const override { return is_open_mean() || is_open_rms(); }
   bool look(const Tallied& tallied) override;
   bool are_met() const override;
   gpu::SurveyPlan plan(double whole) const override;
@@ -78,10 +82,11 @@ class FigureGoals : public WaveGoals {
   bool is_coarse(const Quantile& p) const;
   std::vector<Threshold> thresholds_of(const Quantile& p) const;
 
+  static constexpr double kUnknown = std::numeric_limits<double>::infinity();
   FiguresAsked asked_;
   std::vector<Band> bands_;
   std::vector<Quantile> quantiles_;
-  Moments moments_;
+  Moments moments_{{0, kUnknown}, {0, kUnknown}};
 };
 
 }  // namespace vkh

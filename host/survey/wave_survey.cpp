@@ -50,7 +50,8 @@ WaveSurvey::WaveSurvey(const SurveyedPair& pair, const Areas& areas, SurveyMeter
       cells_(*pair.cells),
       weights_(weights_of(areas)),
       meter_(meter),
-      unit_(tally_unit(farthest)) {
+      unit_(tally_unit(farthest)),
+      highest_(static_cast<double>(farthest)) {
   cells_.begin(weights_.of_face, farthest);
   bound_fresh(cells_.count());
 }
@@ -72,7 +73,7 @@ bool WaveSurvey::bound_fresh(size_t count) {
   return true;
 }
 
-Tallied WaveSurvey::tally(std::span<const Threshold> thresholds) {
+Tallied WaveSurvey::tally(std::span<const Threshold> thresholds, bool with_moments) {
   Tallied all;
   size_t first = 0;
   do {
@@ -80,14 +81,15 @@ Tallied WaveSurvey::tally(std::span<const Threshold> thresholds) {
     const TallyEdges at = edges_of(thresholds.subspan(first, count));
     gpu::SurveyPlan plan{};
     plan.edge_count = static_cast<uint32_t>(count);
+    plan.moments = with_moments ? 1 : 0;
     std::copy(at.edges.begin(), at.edges.end(), std::begin(plan.edges));
     meter_.on_device([&] {
       const AreaTable table(cells_.tally(plan, unit_), at, weights_, unit_);
       const std::vector<Enclosure> shares = table.shares();
       all.shares.insert(all.shares.end(), shares.begin(), shares.end());
-      all.moments = table.moments();
+      if (with_moments) all.moments = table.moments();
       all.lowest = table.lowest();
-      all.highest = table.highest();
+      all.highest = highest_ = table.highest();
     });
     first += count;
   } while (first < thresholds.size());
@@ -128,7 +130,7 @@ bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
 SurveyEnd WaveSurvey::refine(WaveGoals& goals, size_t effort) {
   SurveyEnd ended = SurveyEnd::kMet;
   do {
-    while (goals.look(tally(goals.thresholds()))) {
+    while (goals.look(tally(goals.thresholds(), goals.wants_moments()))) {
     }
   } while (!goals.are_met() && split(goals, effort, ended));
   return std::max(ended, meter_.ended());
@@ -149,19 +151,16 @@ CellStore WaveSurvey::store() {
 }
 
 std::vector<Enclosure> WaveSurvey::shares_within(std::span<const Threshold> thresholds) {
-  return thresholds.empty() ? std::vector<Enclosure>() : tally(thresholds).shares;
+  return thresholds.empty() ? std::vector<Enclosure>() : tally(thresholds, false).shares;
 }
 
-Moments WaveSurvey::moments() { return tally({}).moments; }
+Moments WaveSurvey::moments() { return tally({}, true).moments; }
 
 double WaveSurvey::reached() {
   const auto middle = faces().begin() + std::ssize(pair_.a.faces);
   return static_cast<double>(*std::max_element(faces().begin(), middle));
 }
-double WaveSurvey::highest() {
-  const auto middle = faces().begin() + std::ssize(pair_.a.faces);
-  return static_cast<double>(*std::max_element(middle, faces().end()));
-}
+double WaveSurvey::highest() { return highest_; }
 
 namespace {
 

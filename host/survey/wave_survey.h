@@ -47,7 +47,7 @@ class WaveSurvey : public AreaDistances {
  private:
   bool bound_fresh(size_t count);
   bool split(WaveGoals& goals, size_t effort, SurveyEnd& ended);
-  Tallied tally(std::span<const Threshold> thresholds);
+  Tallied tally(std::span<const Threshold> thresholds, bool with_moments);
 
   const SurveyedPair& pair_;
   SurveyCells& cells_;
@@ -55,6 +55,7 @@ class WaveSurvey : public AreaDistances {
   SurveyMeter& meter_;
   const int unit_;
   size_t spent_ = 0;
+  double highest_;            // at the last tally, in the frame
   std::vector<float> faces_;  // none until they are asked for
 };
 

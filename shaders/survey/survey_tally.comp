@@ -28,18 +28,7 @@ void add(uint at, uvec2 x) {
   if (carried > 0u) atomicAdd(sums_high[at], carried);
 }
 
-// The first edge that is not below a distance.
-uint first_down(float distance) {
-  uint from = 0u;
-  uint to = plan.edge_count;
-  while (from < to) {
-    uint middle = (from + to) / 2u;
-    bool is_behind = edges_down[middle] < distance;
-    from = is_behind ? middle + 1u : from;
-    to = is_behind ? to : middle;
-  }
-  return from;
-}
+// The first edge whose upper end is not below a distance.
 uint first_up(float distance) {
   uint from = 0u;
   uint to = plan.edge_count;
@@ -52,15 +41,37 @@ uint first_up(float distance) {
   return from;
 }
 
+// Goes over the edges that cut the cell, and to the first one that it is all within. An edge's
+// lower end is not above its upper end: so none before the first is surely not below any point.
 void add_within(TallyBounds b, CellWeight w) {
-  uint whole = first_down(b.highest);
-  for (uint k = first_down(b.above.least); k < whole; ++k)
-    add(kSurelyPart + k, share_down(w, surely_within(b, edges_down[k])));
-  if (whole < plan.edge_count) add(kSurelyWhole + whole, w.down);
-  whole = first_up(b.below.most);
-  for (uint k = first_up(b.below.least); k < whole; ++k)
-    add(kPerhapsPart + k, share_up(w, perhaps_within(b, edges_up[k])));
-  if (whole < plan.edge_count) add(kPerhapsWhole + whole, w.up);
+  bool is_surely_all = false, is_perhaps_all = false;
+  for (uint k = first_up(b.below.least); k < plan.edge_count; ++k) {
+    float down = edges_down[k];
+    if (!is_surely_all && down >= b.above.least) {
+      is_surely_all = down >= b.highest;
+      add((is_surely_all ? kSurelyWhole : kSurelyPart) + k,
+          is_surely_all ? w.down : share_down(w, surely_within(b, down)));
+    }
+    if (!is_perhaps_all) {
+      float up = edges_up[k];
+      is_perhaps_all = up >= b.below.most;
+      add((is_perhaps_all ? kPerhapsWhole : kPerhapsPart) + k,
+          is_perhaps_all ? w.up : share_up(w, perhaps_within(b, up)));
+    }
+    if (is_surely_all && is_perhaps_all) break;
+  }
+}
+
+struct Moments {
+  uvec2 mean_lower, mean_upper, square_lower, square_upper;
+};
+
+void add_moments(TallyBounds b, CellWeight w, inout Moments m) {
+  m.mean_lower = wide_sum(m.mean_lower, weighed_down(w, mean_over_down(b.lower), push.unit));
+  m.mean_upper = wide_sum(m.mean_upper, weighed_up(w, b.mean_upper, push.unit));
+  m.square_lower =
+      wide_sum(m.square_lower, weighed_down(w, square_over_down(b.lower), push.square_unit));
+  m.square_upper = wide_sum(m.square_upper, weighed_up(w, b.square_upper, push.square_unit));
 }
 
 void begin_sums() {
@@ -94,8 +105,9 @@ void end_sums() {
 
 void main() {
   begin_sums();
-  uvec2 mean_lower = uvec2(0u), mean_upper = uvec2(0u);
-  uvec2 square_lower = uvec2(0u), square_upper = uvec2(0u);
+  Moments sums;
+  sums.mean_lower = sums.mean_upper = sums.square_lower = sums.square_upper = uvec2(0u);
+  uint most = 0u, not_least = 0u;
   uint stride = kGroupSize * push.groups;
   for (uint i = item_index(); i < push.cells; i += stride) {
     Cell cell = cells[i];
@@ -103,18 +115,18 @@ void main() {
     CellWeight w =
         cell_weight(uvec2(of_face.low, of_face.high), halvings_of(unpack_corners(cell.corners)));
     TallyBounds b = tally_bounds(bounds[i]);
-    mean_lower = wide_sum(mean_lower, weighed_down(w, mean_over_down(b.lower), push.unit));
-    mean_upper = wide_sum(mean_upper, weighed_up(w, b.mean_upper, push.unit));
-    square_lower =
-        wide_sum(square_lower, weighed_down(w, square_over_down(b.lower), push.square_unit));
-    square_upper = wide_sum(square_upper, weighed_up(w, b.square_upper, push.square_unit));
-    atomicMax(highest, bits_of(b.highest));
-    atomicMax(not_lowest, ~bits_of(lowest_of(b)));
+    if (plan.moments != 0u) add_moments(b, w, sums);
+    most = max(most, bits_of(b.highest));
+    not_least = max(not_least, ~bits_of(lowest_of(b)));
     add_within(b, w);
   }
-  add(kMeanLower, mean_lower);
-  add(kMeanUpper, mean_upper);
-  add(kSquareLower, square_lower);
-  add(kSquareUpper, square_upper);
+  atomicMax(highest, most);
+  atomicMax(not_lowest, not_least);
+  if (plan.moments != 0u) {
+    add(kMeanLower, sums.mean_lower);
+    add(kMeanUpper, sums.mean_upper);
+    add(kSquareLower, sums.square_lower);
+    add(kSquareUpper, sums.square_upper);
+  }
   end_sums();
 }

@@ -15,6 +15,8 @@
 #include "tools/bench/bench.h"
 #include "tools/bench/manifest.h"
 #include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/survey.h"
 
 namespace vkh::bench {
 namespace {
