@@ -557,7 +557,8 @@ void vkhCmdScoreSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        const VkhSurvey* survey, const VkhSurveySplit* split) {
   const uint64_t parents = uint64_t{split->above} + split->ties;
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, split->cells + 3 * parents);
+  const uint64_t cells = split->cells + (split->parts - 1) * parents;
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, cells);
   if (!call.records() || parents > vkh::survey_parents(survey->capacity)) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
   vkh::record_survey_split(rec, call.p, call.streams, *split);
@@ -566,8 +567,8 @@ void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 // NOLINTNEXTLINE(readability-function-size)
 void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        const VkhSurvey* survey, const VkhSurveyBound* bound, VkhProfile* profile) {
-  const uint64_t cells =
-      bound->live == 0 ? problem->a.faceCount : bound->live + 3 * uint64_t{bound->parents};
+  const uint64_t end = uint64_t{bound->first} + bound->count;
+  const uint64_t cells = bound->live + end - end / bound->parts * (bound->live > 0 ? 1 : 0);
   vkh::SurveyCall call(context, commandBuffer, *problem, *survey, cells);
   if (!call.records() || !call.rules.profile(profile) || bound->count == 0) return;
   vkh::Recorder rec(*context, commandBuffer, profile);

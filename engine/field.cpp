@@ -22,7 +22,7 @@ void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
                    .first = asked.first,
                    .face_count = p.face_count,
                    .triangle_count = asked.has_run ? p.b.face_count : 0,
-                   .parents = 0,
+                   .parts = 1,
                    .live = 0}};
   rec.run<k::CellBounds>(all, Items{asked.count});
   rec.stage("cells");

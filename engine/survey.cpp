@@ -75,12 +75,14 @@ void record_survey_score(Recorder& rec, const Problem& p, const SurveyStreams& s
 void record_survey_split(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveySplit& split) {
   const auto scope = rec.scope("survey split");
-  const SurveyGiven given(p, survey,
-                          gpu::SurveySplitPush{split.cells, split.bin, split.ties, split.above});
+  const SurveyGiven given(
+      p, survey,
+      gpu::SurveySplitPush{split.cells, split.bin, split.ties, split.above, split.parts});
   const Groups blocks{blocks_of(split.cells)};
   rec.run<k::SurveyCount>(given, blocks);
   rec.run<k::SurveyScan>(given, Groups{1});
-  rec.run<k::SurveySplit>(given, blocks);
+  rec.run<k::SurveyList>(given, blocks);
+  rec.run<k::SurveySplit>(given, Items{split.above + split.ties});
 }
 
 void record_survey_bound(Recorder& rec, const Problem& p, const SurveyStreams& survey,
@@ -92,7 +94,7 @@ void record_survey_bound(Recorder& rec, const Problem& p, const SurveyStreams& s
                                         .first = bound.first,
                                         .face_count = p.face_count,
                                         .triangle_count = p.b.face_count,
-                                        .parents = bound.parents,
+                                        .parts = bound.parts,
                                         .live = bound.live});
   rec.run<k::CellBounds>(given, Items{bound.count});
   rec.stage("cells");

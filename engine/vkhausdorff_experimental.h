@@ -84,18 +84,19 @@ VKH_API void vkhCmdScoreSurvey(VkhContext context, VkCommandBuffer commandBuffer
 typedef struct VkhSurveySplit {
   uint32_t cells; /* that there are */
   uint32_t bin;   /* cells of larger bins are split, `above` of them, */
-  uint32_t ties;  /* and the first so many of this bin: three new cells each, for which there must
-                   * be room, and no more than a quarter of the capacity together */
+  uint32_t ties;  /* and the first so many of this bin, */
   uint32_t above;
+  uint32_t parts; /* into halves, 2, or halves of halves, 4. There must be room for all parts but the
+                   * first, and no more than a quarter of the capacity is split */
 } VkhSurveySplit;
 VKH_API void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhProblem* problem, const VkhSurvey* survey,
                                const VkhSurveySplit* split);
 
 typedef struct VkhSurveyBound {
-  uint32_t first, count; /* of the new cells: four for each that was split, or A's faces */
-  uint32_t parents;      /* how many were split */
-  uint32_t live;         /* cells before that; 0 for A's faces */
+  uint32_t first, count; /* of the new cells: the parts of those that were split, or A's faces */
+  uint32_t parts;        /* of each; 1: A's faces */
+  uint32_t live;         /* cells before they were split; 0 for A's faces */
 } VkhSurveyBound;
 VKH_API void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhProblem* problem, const VkhSurvey* survey,

@@ -484,6 +484,9 @@ struct SurveyPlan {
   uint moments;        // 1: a tally adds up means and mean squares, too
   float of_whole;      // 1 over the weight of all faces
   float mean, square;  // what a width of the mean, and of the mean square, scores; 0: nothing
+  // Of a map: a cell scores by what its width exceeds, if it has more than so much of the area, and
+  // is not all farther than `map_most`. 0: there is no map.
+  float map_step, map_area, map_most;
   SurveyEdge edges[kSurveyEdges];  // of the tally
   SurveyEdge open[kSurveyOpen];    // area that is undecided there scores
   float shares[kSurveyOpen];       // so much
@@ -645,8 +648,8 @@ struct CellPush {
   uint first;           // the first of the faces of A, or of the survey's new cells
   uint face_count;      // of A
   uint triangle_count;  // of B
-  uint parents;         // new cells that took the place of the one that they are a part of
-  uint live;            // the place of the others
+  uint parts;           // of each cell that was split, the first in its place; 1: none was split
+  uint live;            // the place of the other parts
 };
 
 // survey_begin
@@ -663,12 +666,13 @@ struct SurveyPush {
   int square_unit;  // and their squares below 2^(square_unit - 127)
 };
 
-// survey_count, survey_scan and survey_split
+// survey_count, survey_scan, survey_list and survey_split
 struct SurveySplitPush {
   uint cells;
   uint key;    // cells with a larger one are split,
   uint ties;   // and so many that have this one
   uint above;  // cells with a larger one
+  uint parts;  // of each: 2 or 4
 };
 
 // closest_faces

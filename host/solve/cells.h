@@ -32,6 +32,7 @@ struct PointBatch {
 /// `ties` of this bin.
 struct SurveyChoice {
   uint32_t bin = 0, above = 0, ties = 0;
+  uint32_t parts = 4;  ///< halves of halves; or 2
   uint32_t count() const { return above + ties; }
 };
 
@@ -48,10 +49,10 @@ class SurveyCells {
   virtual size_t most() const = 0;
   /// Counts the cells by the bins of their scores: gpu::kScoreBins, 0 for none.
   virtual std::span<const uint32_t> score(const gpu::SurveyPlan& plan) = 0;
-  /// Splits each chosen cell into four, which have no bounds of their own until bound(); returns
+  /// Splits each chosen cell into parts, which have no bounds of their own until bound(); returns
   /// false, and does nothing, if there is no memory for them. It need not wait.
   virtual bool split(const SurveyChoice& choice) = 0;
-  /// Bounds new cells, which are four for each that was split, or A's faces. `wait`: false if more
+  /// Bounds new cells, which are the parts of those that were split, or A's faces. `wait`: false if more
   /// of them or a tally follow.
   virtual void bound(size_t first, size_t count, bool wait) = 0;
   /// Adds up all cells at the plan's edges. Every distance is below 2^(unit - 127).

@@ -47,7 +47,7 @@ void DeviceCells::begin(std::span<const uint64_t> weights, float farthest) {
   grow(buffers_.table, device_, sizeof(gpu::SurveyTable), kRead);
   std::memcpy(buffers_.weights.mapped(), weights.data(), weights.size_bytes());
   count_ = faces;
-  fresh_ = {.first = 0, .count = faces, .parents = 0, .live = 0};
+  fresh_ = {.first = 0, .count = faces, .parts = 1, .live = 0};
   waiting_.push_back([this, farthest](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
     const VkhSurveyBegin begin{buffers_.weights.handle(), 0, farthest};
@@ -104,14 +104,15 @@ bool DeviceCells::make_room(size_t cells) {
 }
 
 bool DeviceCells::split(const SurveyChoice& choice) {
-  if (!make_room(count_ + 3 * size_t{choice.count()})) return false;
+  const uint32_t more = (choice.parts - 1) * choice.count();
+  if (!make_room(size_t{count_} + more)) return false;
   waiting_.push_back([this, choice, cells = count_](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
-    const VkhSurveySplit split{cells, choice.bin, choice.ties, choice.above};
+    const VkhSurveySplit split{cells, choice.bin, choice.ties, choice.above, choice.parts};
     vkhCmdSplitSurvey(context_, commands, &problem_, &survey, &split);
   });
-  fresh_ = {.first = 0, .count = 4 * choice.count(), .parents = choice.count(), .live = count_};
-  count_ += 3 * choice.count();
+  fresh_ = {.first = 0, .count = more + choice.count(), .parts = choice.parts, .live = count_};
+  count_ += more;
   return true;
 }
 

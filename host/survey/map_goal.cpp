@@ -1,27 +1,18 @@
 #include "host/survey/map_goal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "host/base/parallel.h"
 #include "host/survey/cell_corners.h"
 #include "host/survey/sides.h"
+#include "shaders/survey/score.h"
 #include "vkhausdorff/length.h"
 
 namespace vkh {
 namespace {
-
-// The most by which the distance of a point of the cell, and what is drawn there, are apart. Both
-// lie between two affine functions, which are farthest apart at a corner, and between two numbers.
-double widest(const gpu::CellBounds& b) {
-  const auto gap = [](float lower, float upper) {
-    return static_cast<double>(upper) - static_cast<double>(lower);
-  };
-  const double affine =
-      std::max({gap(b.lower_a, b.upper_a), gap(b.lower_b, b.upper_b), gap(b.lower_c, b.upper_c)});
-  return std::min(affine, gap(lowest(b), b.highest));
-}
 
 // The middle of the bounds of a cell's middle.
 double middle_of(const gpu::CellBounds& b) {
@@ -113,29 +104,77 @@ double most_of(const SurveyOptions& options, const SurveyedPair& pair) {
 
 }  // namespace
 
-std::optional<Goal> map_goal(const SurveyOptions& options, const SurveyedPair& pair,
-                             const Areas& areas) {
-  if (!options.map || pair.a.are_points || !areas.is_positive()) return {};
-  const double most = most_of(options, pair), open = pair.frame.to_frame(open_of(pair));
-  const double least = least_area(pair, areas, *options.map), floor = least_width(pair);
-  std::optional<double> bar;
-  if (options.map->bar) bar = pair.frame.to_frame(*options.map->bar);
-  return [&areas, bar, most, open, least, floor](const CellStore& store) {
-    const auto middle = [&](size_t i) { return middle_of(store.bounds(i)); };
-    const double end = bar ? *bar : percentile_99(store, areas, most, middle);
-    const double step = step_of(end, open, floor);
-    return scored(store, [&](size_t i) -> std::optional<double> {
-      const double over = widest(store.bounds(i)) - step;
-      const double area = store.share(i) * areas.of_face[store.face(i)];
-      if (over <= 0 || area <= least) return std::nullopt;
-      if (static_cast<double>(lowest(store.bounds(i))) > most) return std::nullopt;
-      return over * area;
-    });
-  };
+MapGoals::MapGoals(const SurveyOptions& options, const SurveyedPair& pair, const Areas& areas,
+                   double farthest)
+    : most_(most_of(options, pair)),
+      open_(pair.frame.to_frame(open_of(pair))),
+      least_(least_area(pair, areas, *options.map) / areas.whole),
+      floor_(least_width(pair)),
+      unsettled_(options.map->bar ? 0 : kSettles),
+      bar_(options.map->bar ? pair.frame.to_frame(*options.map->bar) : farthest),
+      from_(std::ldexp(farthest, -kOctaves)),
+      to_(farthest) {}
+
+// Distances in a geometric row, and then the one beyond which the map leaves cells out.
+std::vector<Threshold> MapGoals::thresholds() const {
+  std::vector<Threshold> at;
+  if (!is_sought()) return at;
+  for (int k = 0; k <= kCuts; ++k) {
+    const double d = from_ * std::pow(to_ / from_, static_cast<double>(k) / kCuts);
+    at.push_back({d, d});
+  }
+  at.push_back({std::min(most_, to_), std::min(most_, to_)});
+  return at;
 }
 
-CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const SurveyOptions& options,
-               const Estimates& estimates) {
+// The bar ends about where 99 % of the area is within, between two of the distances. It only
+// steers.
+bool MapGoals::look(const Tallied& tallied) {
+  constexpr double kSettled = 0.05;
+  if (!is_sought()) return false;
+  const std::vector<Threshold> at = thresholds();
+  const auto middle = [&](size_t k) {
+    return (tallied.shares[k].lower + tallied.shares[k].upper) / 2;
+  };
+  const double wanted = 0.99 * middle(at.size() - 1);
+  size_t next = 1;
+  while (next < kCuts && middle(next) < wanted) ++next;
+  const double before = middle(next - 1), behind = std::max(middle(next), before + 1e-9);
+  const double along = std::clamp((wanted - before) / (behind - before), 0.0, 1.0);
+  const double last = bar_;
+  bar_ = at[next - 1].down + along * (at[next].down - at[next - 1].down);
+  const bool is_coarse = to_ > 8 * from_;
+  unsettled_ = std::abs(bar_ - last) > kSettled * last ? kSettles : unsettled_ - 1;
+  from_ = at[next - 1].down / kNarrow;
+  to_ = at[next].down * kNarrow;
+  return is_coarse;
+}
+
+gpu::SurveyPlan MapGoals::plan(double whole) const {
+  gpu::SurveyPlan plan{};
+  plan.of_whole = static_cast<float>(1 / whole);
+  const double step = step_of(bar_, open_, floor_);
+  plan.map_step = static_cast<float>(is_nearly_met_ ? step : 2 * step);
+  plan.map_area = static_cast<float>(is_nearly_met_ ? least_ : 2 * least_);
+  plan.map_most = static_cast<float>(std::min(most_, 1e38));
+  return plan;
+}
+
+namespace {
+
+// The middle of what is known of the distance at each corner, which lies between both affine
+// functions and between both numbers.
+std::array<float, 3> middles_of(const gpu::CellBounds& b) {
+  const auto middle = [&](float lower, float upper) {
+    return (std::max(lower, lowest(b)) + std::min(upper, b.highest)) / 2;
+  };
+  return {middle(b.lower_a, b.upper_a), middle(b.lower_b, b.upper_b), middle(b.lower_c, b.upper_c)};
+}
+
+}  // namespace
+
+CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair,
+               const SurveyOptions& options) {
   const CellStore& store = surface.store;
   const Areas& areas = surface.areas;
   CellMap map;
@@ -146,19 +185,21 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const Surv
   const double open = pair.frame.to_frame(open_of(pair));
   map.slack = pair.frame.length_up(std::max(pair.displacement - open, 0.0));
   if (options.max_distance) map.max_distance = typed_length(*options.max_distance);
-  const auto mean = [&](size_t i) { return static_cast<double>(estimates.of(i).mean); };
-  map.bar = options.map->bar ? *options.map->bar
-                             : map.unit * percentile_99(store, areas, most_of(options, pair), mean);
+  const auto middle = [&](size_t i) { return middle_of(store.bounds(i)); };
+  map.bar = options.map->bar
+                ? *options.map->bar
+                : map.unit * percentile_99(store, areas, most_of(options, pair), middle);
   map.cells.resize(store.count());
   for_each_block(store.count(), [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const gpu::uvec4& c = store.cell(i).corners;
       const double area = store.share(i) * areas.of_face[store.face(i)];
-      map.cells[i] = {.corners = {c.x, c.y, c.z, c.w},
-                      .face = store.face(i),
-                      .estimate = estimates.of(i).corners,
-                      .width = static_cast<float>(widest(store.bounds(i)) + open),
-                      .share = static_cast<float>(area / areas.whole)};
+      map.cells[i] = {
+          .corners = {c.x, c.y, c.z, c.w},
+          .face = store.face(i),
+          .estimate = middles_of(store.bounds(i)),
+          .width = static_cast<float>(static_cast<double>(lib::widest(store.bounds(i))) + open),
+          .share = static_cast<float>(area / areas.whole)};
     }
   });
   return map;
@@ -192,10 +233,10 @@ void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const Goe
   map.inside_out = sides.shells().inside_out();
 }
 
-// A width is rounded to a float, by a share of 2^-24 at most. The sums, the products and `unit`
-// together are rounded by less than ten shares of 2^-53 of the larger end.
+// A width is rounded to a float twice, by a share of 2^-23 at most. The sums, the products and
+// `unit` together are rounded by less than ten shares of 2^-53 of the larger end.
 Enclosure CellMap::around(double estimate, double width) const {
-  const double gap = width * (1 + 0x1p-23);
+  const double gap = width * (1 + 0x1p-22);
   const double rounding = (estimate + gap) * unit * 0x1p-49 + slack;
   return {std::max((estimate - gap) * unit - rounding, 0.0), (estimate + gap) * unit + rounding};
 }

@@ -1,24 +1,51 @@
-// The goal of a map, and the map from a survey's cells.
+// The goals of a map, and the map from a survey's cells.
 #pragma once
 
 #include <optional>
 #include <span>
 
-#include "host/survey/estimate.h"
 #include "host/survey/goals.h"
 #include "host/survey/stoppable.h"
+#include "host/survey/wave_goals.h"
 
 namespace vkh {
 
-/// A cell scores if it is larger than a pixel, unresolved and not left out. None unless a map is
-/// asked for and A has an area; none for points, which no split divides. All arguments must outlive
-/// it.
-std::optional<Goal> map_goal(const SurveyOptions& options, const SurveyedPair& pair,
-                             const Areas& areas);
+/// A cell scores if it is larger than a pixel, unresolved and not left out.
+class MapGoals : public WaveGoals {
+ public:
+  /// `options` ask for a map. A has an area, and no distance is above `farthest`, in the frame.
+  MapGoals(const SurveyOptions& options, const SurveyedPair& pair, const Areas& areas,
+           double farthest);
+
+  std::vector<Threshold> thresholds() const override;
+  bool wants_moments() const override { return false; }
+  bool look(const Tallied& tallied) override;
+  bool are_met() const override { return false; }
+  SurveyEnd at_rest() const override { return SurveyEnd::kMet; }
+  gpu::SurveyPlan plan(double whole) const override;
+  double part() const override { return 1; }  // each cell that scores is in its way
+  bool is_worth(size_t split, size_t cells) const override {
+    return is_nearly_met_ || 50 * split >= cells;
+  }
+  uint32_t parts() const override { return is_nearly_met_ ? 2 : 4; }
+  /// First splits into four what is too wide by a factor of two, and then into two what is too
+  /// wide: halves have about half of a cell's width, and of its area.
+  void begin_coarse() { is_nearly_met_ = false; }
+  void begin_fine() { is_nearly_met_ = true; }
+
+ private:
+  bool is_sought() const { return unsettled_ > 0 && !is_nearly_met_; }
+  static constexpr int kOctaves = 20, kCuts = 12, kSettles = 2;
+  static constexpr double kNarrow = 1.5;  // so far may the bar's end move between two looks
+  const double most_, open_, least_, floor_;
+  bool is_nearly_met_ = false;
+  int unsettled_;     // so often the bar's end must stay where it is before it is sought no more
+  double bar_;        // its end, in the frame
+  double from_, to_;  // where it is sought
+};
 
 /// The map of all cells, which `options` ask for. A has an area, or is points.
-CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const SurveyOptions& options,
-               const Estimates& estimates);
+CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const SurveyOptions& options);
 /// Adds the sides of the survey's cells, in their order, to a map of all of them.
 void add_sides(std::span<const CellSide> sides, CellMap& map);
 

@@ -137,14 +137,14 @@ void Refining::measure(CellStore& store, std::span<const size_t> which) {
   });
 }
 
-// Refines until the goal is met, or cannot be, by splits of `budget` cells.
-SurveyEnd Refining::refine(CellStore& store, const Goal& goal, size_t budget) {
-  const size_t kept = splits_left() - budget;
+// Refines until the goal is met, or cannot be.
+SurveyEnd Refining::refine_one(CellStore& store, const Goal& goal) {
   for (;;) {
     Scores scores = goal(store);
     if (scores.is_met) return SurveyEnd::kMet;
     if (scores.cells.empty()) return SurveyEnd::kBits;
-    const size_t most = std::min(std::max(store.count() / 2, kFewestSplits), splits_left() - kept);
+    const size_t most =
+        std::min(std::max(store.count() / 2, kFewestSplits), meter_.effort_left() / 2);
     if (most == 0) return SurveyEnd::kEffort;
     if (!meter_.goes_on()) return meter_.ended();
     if (pair_.a.are_points) {
@@ -157,13 +157,8 @@ SurveyEnd Refining::refine(CellStore& store, const Goal& goal, size_t budget) {
 
 SurveyEnd Refining::refine(CellStore& store, const std::vector<Goal>& goals) {
   SurveyEnd ended = meter_.ended();  // before all faces are bounded, perhaps
-  for (const Goal& goal : goals) ended = std::max(ended, refine(store, goal, splits_left()));
+  for (const Goal& goal : goals) ended = std::max(ended, refine_one(store, goal));
   return ended;
-}
-
-SurveyEnd Refining::refine_map(CellStore& store, const std::optional<Goal>& map, bool is_last) {
-  if (!map) return meter_.ended();
-  return refine(store, *map, splits_left() / (is_last ? 1 : 2));
 }
 
 }  // namespace vkh

@@ -1,5 +1,5 @@
-// Cells that the host holds are refined for a goal at a time: faces, maps, sides, normals, points.
-// The figures of a surface are refined where the cells are: wave_survey.h.
+// Cells that the host holds are refined for a goal at a time: faces, sides, normals, points. For a
+// surface's figures and its map they are refined where they are: wave_survey.h.
 #pragma once
 
 #include <optional>
@@ -23,15 +23,11 @@ class Refining {
   void bound_faces(CellStore& store);
   /// Refines for one goal after the other.
   SurveyEnd refine(CellStore& store, const std::vector<Goal>& goals);
-  /// Refines for a picture, which may take half of the effort before figures, and what they leave
-  /// after them.
-  SurveyEnd refine_map(CellStore& store, const std::optional<Goal>& map, bool is_last);
 
  private:
-  SurveyEnd refine(CellStore& store, const Goal& goal, size_t budget);
+  SurveyEnd refine_one(CellStore& store, const Goal& goal);
   void halve(CellStore& store, std::span<const size_t> which);
   void measure(CellStore& store, std::span<const size_t> which);
-  size_t splits_left() const { return meter_.effort_left() / 2; }
   template <class Work>
   void in_batches(size_t count, const Work& work);
 

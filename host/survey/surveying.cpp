@@ -21,12 +21,12 @@ bool finds_sides(const SurveyOptions& options) { return options.is_signed || opt
 
 // Whether something besides the figures of a surface is asked for, which cells are split for, too.
 bool has_other_goals(const SurveyOptions& options) {
-  return options.faces || options.map || options.normals_within || finds_sides(options);
+  return options.faces || options.normals_within || finds_sides(options);
 }
 
 // Whether the host must hold the cells.
 bool needs_store(const SurveyOptions& options) {
-  return has_other_goals(options) || options.max_distance;
+  return has_other_goals(options) || options.max_distance || options.map;
 }
 
 SurveyedPair with_upper(SurveyedPair pair, double upper) {
@@ -75,7 +75,7 @@ void Surveying::run(SurveyResult& result) {
 }
 
 bool Surveying::goes_by_waves() const {
-  return pair_.cells != nullptr && options_.statistics && !pair_.a.are_points &&
+  return pair_.cells != nullptr && (options_.statistics || options_.map) && !pair_.a.are_points &&
          areas_.is_positive();
 }
 
@@ -85,12 +85,26 @@ float Surveying::farthest() const {
   return static_cast<float>(std::min(most * (1 + 1e-6), 1e38));
 }
 
-// If the host must hold the cells, it takes over.
+// A picture may take half of the effort before figures, and what they leave after them. If the host
+// must hold the cells, it takes over.
 void Surveying::run_by_waves(SurveyResult& result) {
   waves_.emplace(pair_, areas_, meter_, farthest());
-  FigureGoals goals(options_, pair_, waves_->farthest());
-  result.ended = waves_->refine(goals, meter_.effort() / (has_other_goals(options_) ? 2 : 1));
-  known_ = goals.percentiles();
+  const size_t effort = meter_.effort() / (has_other_goals(options_) ? 2 : 1);
+  std::optional<MapGoals> map;
+  if (options_.map) map.emplace(options_, pair_, areas_, waves_->farthest());
+  const auto refine_map = [&](size_t most) {
+    map->begin_coarse();
+    waves_->refine(*map, most);
+    map->begin_fine();
+    return waves_->refine(*map, most);
+  };
+  if (map) refine_map(effort / 2);
+  if (options_.statistics) {
+    FigureGoals goals(options_, pair_, waves_->farthest());
+    result.ended = std::max(result.ended, waves_->refine(goals, effort));
+    known_ = goals.percentiles();
+  }
+  if (map) result.ended = std::max(result.ended, refine_map(effort));
   if (needs_store(options_)) {
     store_.emplace(waves_->store());
     return waves_.reset();
@@ -113,36 +127,35 @@ void Surveying::run_on_store(SurveyResult& result) {
   if (options_.normals_within && options_.statistics && !pair_.a.are_points && !pair_.b.are_points)
     normals_.emplace(pair_, options_, areas_, [this] { return meter_.goes_on(); });
   if (normals_ && areas_.is_positive()) normals_->add_goals(goals);
-  const std::optional<Goal> map = map_goal(options_, pair_, areas_);
-  refining_.refine_map(*store_, map, false);
   result.ended = std::max(result.ended, refining_.refine(*store_, goals));
-  result.ended = std::max(result.ended, refining_.refine_map(*store_, map, true));
   result.field = field_of(store_->reached_of_faces(), store_->highest_of_faces(), pair_);
   if (sided_) result.sides = sided_->figures({*store_, areas_, known_}, options_);
   result.ended = std::max(result.ended, meter_.ended());
   stored_ = std::make_unique<StoredDistances>(*store_, areas_);
   distances_ = stored_.get();
   if ((options_.statistics || options_.map) && areas_.is_positive()) add_figures(result);
+  result.ended = std::max(result.ended, meter_.ended());
 }
 
 void Surveying::add_figures(SurveyResult& result) {
-  std::optional<Estimates> estimates;
-  if (options_.map || normals_)
-    estimates.emplace(pair_, *store_, [this] { return meter_.is_wanted(); });
-  result.ended = std::max(result.ended, meter_.ended());
   if (options_.statistics)
     result.statistics = statistics_of(*distances_, areas_, known_, pair_, options_);
   if (result.statistics) {
     const SurveyedArea surface{*store_, areas_, known_};
     if (options_.max_distance) keep_within(surface, pair_, options_, *result.statistics);
     add_middles(has_only_shares(options_), *result.statistics);
-    if (normals_) normals_->add_figures(*store_, *estimates, *result.statistics);
+    if (normals_) add_normals(*result.statistics);
   }
-  if (options_.map) add_map(*estimates, result);
+  if (options_.map) add_map(result);
 }
 
-void Surveying::add_map(const Estimates& estimates, SurveyResult& result) {
-  result.map = map_of({*store_, areas_, known_}, pair_, options_, estimates);
+void Surveying::add_normals(Statistics& statistics) {
+  const Estimates estimates(pair_, *store_, [this] { return meter_.is_wanted(); });
+  normals_->add_figures(*store_, estimates, statistics);
+}
+
+void Surveying::add_map(SurveyResult& result) {
+  result.map = map_of({*store_, areas_, known_}, pair_, options_);
   if (sided_) add_sides(sided_->of(*store_), *result.map);
   if (has_cheap_sides_)
     add_cheap_sides(

@@ -39,7 +39,8 @@ class Surveying {
   void run_by_waves(SurveyResult& result);
   void run_on_store(SurveyResult& result);
   void add_figures(SurveyResult& result);
-  void add_map(const Estimates& estimates, SurveyResult& result);
+  void add_normals(Statistics& statistics);
+  void add_map(SurveyResult& result);
   void add_counts(SurveyResult& result) const;
 
   SurveyedPair pair_;

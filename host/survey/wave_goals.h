@@ -30,10 +30,16 @@ class WaveGoals {
   virtual bool look(const Tallied& tallied) = 0;
   /// Whether splits would gain nothing.
   virtual bool are_met() const = 0;
+  /// How a survey ends where no cell scores and they are not met.
+  virtual SurveyEnd at_rest() const { return SurveyEnd::kBits; }
   /// Scores a cell by its part of the widths of all figures that are open.
   virtual gpu::SurveyPlan plan(double whole) const = 0;
   /// So much of all scores is worth a wave's splits.
   virtual double part() const = 0;
+  /// Whether a wave is worth it that splits so many of the cells, all that score.
+  virtual bool is_worth(size_t, size_t) const { return true; }
+  /// The parts that a cell is split into.
+  virtual uint32_t parts() const { return 4; }
 };
 
 /// Scores a cell by its undecided area at a threshold. A plan has room for some: the others are

@@ -10,7 +10,6 @@ namespace vkh {
 namespace {
 
 constexpr size_t kFewestParents = 512;  // for a wave, whose other steps look at all cells
-constexpr size_t kParts = 4;            // of a cell that is split
 
 // The score in the middle of a bin.
 double score_of(size_t bin) {
@@ -101,13 +100,15 @@ bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
   const gpu::SurveyPlan plan = goals.plan(weights_.whole);
   std::span<const uint32_t> counts;
   meter_.on_device([&] { counts = cells_.score(plan); });
-  const size_t room = (cells_.most() - cells_.count()) / (kParts - 1);
-  const size_t left = (effort - std::min(spent_, effort)) / kParts;
-  const size_t most = std::min({std::max(cells_.count() / 4, kFewestParents), left, room});
-  const SurveyChoice choice = choose_cells(counts, goals.part(), most);
-  if (choice.count() == 0) {
-    const bool is_any = sum_of_scores(counts) > 0;
-    ended = !is_any ? SurveyEnd::kBits : left == 0 ? SurveyEnd::kEffort : SurveyEnd::kMemory;
+  const size_t parts = goals.parts();
+  const size_t room = (cells_.most() - cells_.count()) / (parts - 1);
+  const size_t left = (effort - std::min(spent_, effort)) / parts;
+  const size_t most = std::min({std::max(cells_.count() / parts, kFewestParents), left, room});
+  SurveyChoice choice = choose_cells(counts, goals.part(), most);
+  choice.parts = static_cast<uint32_t>(parts);
+  if (choice.count() == 0 || !goals.is_worth(choice.count(), cells_.count())) {
+    const bool is_any = choice.count() == 0 && sum_of_scores(counts) > 0;
+    ended = !is_any ? goals.at_rest() : left == 0 ? SurveyEnd::kEffort : SurveyEnd::kMemory;
     return false;
   }
   if (!meter_.goes_on()) {
@@ -119,7 +120,7 @@ bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
     return false;
   }
   faces_.clear();
-  const size_t fresh = kParts * choice.count();
+  const size_t fresh = parts * choice.count();
   spent_ += fresh;
   meter_.spend(fresh);
   if (bound_fresh(fresh)) return true;
@@ -129,8 +130,13 @@ bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
 
 SurveyEnd WaveSurvey::refine(WaveGoals& goals, size_t effort) {
   SurveyEnd ended = SurveyEnd::kMet;
+  const auto look = [&] {
+    const std::vector<Threshold> at = goals.thresholds();
+    const bool is_asked = !at.empty() || goals.wants_moments();
+    return goals.look(is_asked ? tally(at, goals.wants_moments()) : Tallied());
+  };
   do {
-    while (goals.look(tally(goals.thresholds(), goals.wants_moments()))) {
+    while (look()) {
     }
   } while (!goals.are_met() && split(goals, effort, ended));
   return std::max(ended, meter_.ended());

@@ -29,11 +29,15 @@ layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 #include "shaders/report/cell.h"
 #include "shaders/traversal/traversal.glsl"
 
-// The place of an item.
+// The place of an item. A survey's parts of one cell follow each other, since they look at the same
+// triangles.
 uint place_of(uint i) {
   if (push.given != kSurveyCells) return i;
   uint item = push.first + i;
-  return item < push.parents ? parents[item] : push.live + item - push.parents;
+  if (push.parts == 1u) return item;
+  uint rank = item / push.parts;
+  uint part = item - rank * push.parts;
+  return part == 0u ? parents[rank] : push.live + (push.parts - 1u) * rank + part - 1u;
 }
 
 Cell cell_at(uint i) {

@@ -22,6 +22,14 @@ VKH_FN float square_width(TallyBounds b) {
   return max(b.square_upper - square_over_down(b.lower), 0.0f);
 }
 
+// The most by which the distance of a point of the cell, and what is drawn there, are apart. Both
+// lie between two affine functions, which are farthest apart at a corner, and between two numbers.
+VKH_FN float widest(CellBounds b) {
+  float affine = max(b.upper_a - b.lower_a, max(b.upper_b - b.lower_b, b.upper_c - b.lower_c));
+  float lowest = max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);
+  return min(affine, b.highest - lowest);
+}
+
 // The split of a cell into four as a code of math/dyadic.h: it is halved at its longest edge, and
 // so are the halves, so that cells are halves of halves of their face. kSplitNone: the bits have
 // run out.
@@ -33,6 +41,18 @@ VKH_FN uint cell_split(Root root, Bary3 at) {
   uint z = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 1u))));
   uint code = bisection_code(x, y, z);
   return choose(can_split(at, code), code, kSplitNone);
+}
+
+// Whether the cell can be split into four at any edges: the middles of its edges, and of theirs, are
+// dyadic points where all corners are multiples of four. It needs no vertex of A.
+VKH_FN bool has_quarters(Bary3 t) {
+  uvec2 any = uvec2(t.a.x | t.b.x | t.c.x, t.a.y | t.b.y | t.c.y);
+  return ((any.x | any.y) & 3u) == 0u;
+}
+
+// The corners of half 0 or 1 of such a split among the six points.
+VKH_FN uvec3 half_points(uint split, uint half_side) {
+  return bisected(uvec3(0u, 1u, 2u), (split - 1u) % 3u, 3u, half_side);
 }
 
 // The bin of a score: eight an octave, larger ones for larger scores; 0 for none.

@@ -97,7 +97,7 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
       pair.build(c);
       pair.begin(c);
       const VkhSurveyBegin begin = bench.begin(4);
-      const VkhSurveyBound bound{0, faces, 0, 0};
+      const VkhSurveyBound bound{0, faces, 1, 0};
       const VkhSurveyScore score = bench.score(faces);
       vkhCmdBeginSurvey(context.get(), c, &pair.problem(), &bench.survey, &begin);
       vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &bound, nullptr);
@@ -107,11 +107,11 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
     const auto counts = bench.read<uint32_t>(0, gpu::kScoreBins);
     uint32_t bin = gpu::kScoreBins - 1, above = 0;
     while (above + counts[bin] < faces / 3) above += counts[bin--];
-    const VkhSurveySplit split{faces, bin, faces / 3 - above, above};
+    const VkhSurveySplit split{faces, bin, faces / 3 - above, above, 4};
     const uint32_t parents = split.ties + split.above, cells = faces + 3 * parents;
     pair.run([&](VkCommandBuffer c) {
-      const VkhSurveyBound first{0, parents, parents, faces};  // in two parts
-      const VkhSurveyBound rest{parents, 3 * parents, parents, faces};
+      const VkhSurveyBound first{0, parents, 4, faces};  // in two parts
+      const VkhSurveyBound rest{parents, 3 * parents, 4, faces};
       const VkhSurveyTally tally = bench.tally(cells, 127 + 3);
       VkhSurveyRead read{};
       read.cells = cells;
