@@ -2,7 +2,7 @@
 // distances and the witness by brute force in 113 bits; the same bits for any number of threads.
 #include "host/native/native.h"
 
-#include "host/native/problem.h"
+#include "host/native/levels.h"
 // Its include guard keeps the float version of shaders/math out.
 #include <doctest/doctest.h>
 
@@ -75,7 +75,7 @@ NativeOptions options_for(const HardPair& hard, uint64_t seed) {
   // Most runs are as users run them; some are out of memory or cut short.
   const uint64_t way = seed % 16;
   if (way == 0) options.level_limit = 1 + static_cast<uint32_t>(seed / 16 % 4);
-  if (way == 1) options.most_candidates = 1 + seed / 16 % 64;
+  if (way == 1) options.memory_bytes = (1 + seed / 16 % 64) * native::kBytesOfCandidate;
   return options;
 }
 
