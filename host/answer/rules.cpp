@@ -172,7 +172,7 @@ std::vector<Rule> rules_of_simplify() {
 
 bool needs_vulkan(const Question& q) {
   const EngineOptions& engine = q.engine;
-  const bool has_preset = !engine.preset.empty() && engine.preset != "default";
+  const bool has_preset = !engine.preset.empty() && engine.preset != preset_names().front();
   return q.asks_for_cells() || q.align || q.verify || q.is_by_face() || has_preset ||
          !engine.enabled.empty() || !engine.disabled.empty();
 }
