@@ -204,8 +204,8 @@ bool examine_devices(std::ostream& out, const std::string& selector, Json* json)
   found.add("version", program_version());
   found.add("system", system_name());
   found.add("problem", nullptr);
-  for (const char* part :
-       {"native", "loader", "devices", "device", "arithmetic", "subgroup_operations", "self_check", "times"})
+  for (const char* part : {"native", "loader", "devices", "device", "arithmetic",
+                           "subgroup_operations", "self_check", "times"})
     found.add(part, nullptr);
   try {
     return examine(found, selector);
