@@ -146,16 +146,14 @@ std::vector<Rule> rules_of_devices() {
            "{threads}: are of {device} native"},
           {{"device"},
            is_native,
-           "{device} native: encloses distances and decides limits alone; this command needs a "
-           "Vulkan device",
+           "{device} native: has distances and limits alone; this command needs a Vulkan device",
            kMetrics | kSimplify},
           {{"stats",      "signed",  "bands",       "area",       "field",       "field-tol",
             "image",      "report",  "figures-csv", "points-out", "certificate", "image-dir",
             "report-dir", "metrics", "effort",      "face-max",   "face-max-b",  "align",
             "verify",     "preset",  "enable",      "disable"},
            is_native,
-           "{option}: needs a Vulkan device; {device} native encloses distances and decides limits "
-           "alone"}};
+           "{option}: needs a Vulkan device: {device} native has distances and limits alone"}};
 }
 
 std::vector<Rule> rules_of_simplify() {
@@ -179,7 +177,7 @@ bool needs_vulkan(const Question& q) {
 
 constexpr QuestionRule kQuestionRules[] = {
     {[](const Question& q) { return q.is_native() && needs_vulkan(q); },
-     "{device} native: encloses distances and decides limits alone; figures, sides, pictures, "
+     "{device} native: has distances and limits alone; figures, sides, pictures, "
      "certificates, fits, limits of faces, {verify} and presets need a Vulkan device"},
     {[](const Question& q) { return q.metrics && (!q.symmetric || q.max); },
      "{metrics}: figures are of both directions and no verdict: leave out {max}, and a {symmetric} "

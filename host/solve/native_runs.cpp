@@ -127,7 +127,7 @@ std::vector<Report> NativeRuns::distances(std::span<const PairView> pairs,
 
 Report NativeRuns::distance(const PairView& pair, const SolveOptions& options,
                             size_t number) const {
-  const auto& [a, b, prepared, own, framed] = pair;
+  const Mesh &a = pair.a, &b = pair.b;
   NativeWatch watch{.options = options, .number = number};
   native::NativeOptions asked = native_options(options, processor_.threads);
   asked.goes_on = [&watch](const native::NativeProgress& now) { return watch(now); };
