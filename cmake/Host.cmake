@@ -89,12 +89,11 @@ else()
 endif()
 include(Room)
 # Calls go down: each room's code calls the rooms before it alone (tools/lint/rooms_test.py, tools/lint/links_test.py).
-set(VKH_LIBRARY_ROOMS base mesh read gpu solve survey write simplify answer)
+set(VKH_LIBRARY_ROOMS base mesh read gpu native solve survey write simplify answer)
 set(VKH_PROGRAM_ROOMS show batch app)
 foreach(room IN LISTS VKH_LIBRARY_ROOMS VKH_PROGRAM_ROOMS)
   add_subdirectory(host/${room})
 endforeach()
-add_subdirectory(host/native)  # nothing of the product calls it yet
 
 # vkh_room_objects(OUT ROOM...)
 function(vkh_room_objects out)

@@ -4,7 +4,6 @@ set(VKH_TESTS_ALONE
   "/verification/math/"   # at the build's own optimization, and rebuilt one by one by tools/mutation.py
   "/faults/"              # layers and failing allocations, from before main on
   "/cgal_test"            # CGAL's headers take 22 s to compile
-  "/native_test"          # of a room that the product does not have yet
   "/frame_test"           # as math's
   "/diagonal_test"        # as math's
   "/read_cost_test"       # replaces operator new
@@ -41,9 +40,6 @@ function(vkh_test_program source out)
       target_link_libraries(${name} PRIVATE vkh_file_support vkh_file_rooms vkh_test_flags)
     else()
       target_link_libraries(${name} PRIVATE vkh_test_support)
-    endif()
-    if(name STREQUAL "native_test")
-      target_sources(${name} PRIVATE $<TARGET_OBJECTS:vkh_native>)
     endif()
     set(${out} ${name} PARENT_SCOPE)
     return()

@@ -16,7 +16,7 @@ PARTS = "shaders/math/parts.h"
 WIDE = "shaders/survey/wide.h"
 TALLY = "shaders/survey/tally.h"
 LOWER = "shaders/math/lower.h"
-FRAME = "host/solve/frame.cpp"
+FRAME = "host/mesh/frame.cpp"
 LENGTH = "host/base/length.cpp"
 TWO_DOUBLE = "host/native/two_double.h"
 IN_DOUBLES = "host/native/certified.h"
@@ -290,7 +290,7 @@ ROWS = [
     row("coarse_distance_down's rounding", LOWER, "lowered(quotient_down(reach, length) - s.base)",
         ["(quotient_down(reach, length) - s.base)", "reach * (1.0f / length) - s.base"], ON_LOWER),
 
-    # host/solve/frame.cpp
+    # host/mesh/frame.cpp
     row("what two floats leave", FRAME, "return left + subtraction", ["return 0.5 * left + subtraction",
                                                                        "return subtraction"], ON_FRAME),
     row("the frame's subtraction", FRAME, "std::abs(exact) * 0x1p-52",

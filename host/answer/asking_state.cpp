@@ -32,7 +32,7 @@ void AskingState::work() {
   Solver& first = *solvers.front();
   pair_.fit(first, heard);
   begin();
-  open(first.device().description());
+  open(first.description());
   pair_.solve(solvers, heard);
   pair_.finish(first, heard);
   source_->end(pair_.answer());

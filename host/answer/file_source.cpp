@@ -90,11 +90,13 @@ class Hashes {
 };
 
 std::future<Session> begin_opening(const Question& question) {
-  return begin_now([selector = question.device, several = question.several_devices,
-                    engine = engine_of(question),
-                    cache = question.caches ? user_cache_folder() : std::filesystem::path()] {
-    return open_session(selector, several, engine, cache);
-  });
+  const SessionRequest request{
+      .selector = question.device,
+      .several = question.several_devices,
+      .threads = question.threads,
+      .engine = engine_of(question),
+      .cache_folder = question.caches ? user_cache_folder() : std::filesystem::path()};
+  return begin_now([request] { return open_session(request); });
 }
 
 void take_built_in(AskedPair& asked) {

@@ -678,6 +678,7 @@ std::vector<Option> options_of_many() {
 
 std::vector<Option> options_of_cost() {
   const std::string device = "An index from 'doctor', gpu, cpu, or part of a name";
+  const std::string native = "; native: this processor without Vulkan, for distances and limits";
   const std::string best = " [best: discrete, integrated, virtual, CPU]";
   return {
       {.name = "max-input",
@@ -693,18 +694,30 @@ std::vector<Option> options_of_cost() {
        .group = Group::kCost,
        .target = to<&Question::device>,
        .uses = {{.of = kDistance,
-                 .help = device + "; several, 0,1, or all GPUs, each for a part of A" + best,
-                 .more = "all"},
-                {kGate | kMetrics | kSimplify | kDemo | kDoctor, device + best},
-                {.of = kBatch,
                  .help =
-                     "Devices, between commas, as 'doctor' names them; all: every GPU [the best]",
-                 .more = "all"}},
+                     device + "; several, 0,1, or all GPUs, each for a part of A" + native + best,
+                 .more = {"all", "native"}},
+                {.of = kGate | kDemo | kDoctor, .help = device + native + best, .more = {"native"}},
+                {kMetrics | kSimplify, device + best},
+                {.of = kBatch,
+                 .help = "Devices, between commas, as 'doctor' names them; all: every GPU" +
+                         native + " [the best]",
+                 .more = {"all", "native"}}},
        .few = kDistance | kMetrics | kSimplify | kDemo,
        .functions = kPyDistance | kPyGate | kPyMetrics | kPyMany | kPySimplify,
        .shape = "DEVICE",
        .choices = {"gpu", "cpu"},
        .none = "''",
+       .unlike = kHost},
+      {.name = "threads",
+       .kind = Kind::kCount,
+       .group = Group::kCost,
+       .target = to<&Question::threads>,
+       .uses = {{kDistance | kGate | kBatch | kDemo,
+                 "Threads of --device native; answers are the same for any number [one a core]"}},
+       .noun = "threads",
+       .least = 1,
+       .most = 256,
        .unlike = kHost},
       {.name = "time",
        .kind = Kind::kTime,

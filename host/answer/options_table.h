@@ -81,7 +81,7 @@ struct Use {
   std::string help;
   const char* otherwise = "";  ///< its value where it is not given, as help shows it
   bool required = false;
-  const char* more = "";  ///< a choice besides Option::choices
+  std::vector<std::string> more = {};  ///< choices besides Option::choices
 };
 
 /// The functions of Python that take a keyword, one bit each.

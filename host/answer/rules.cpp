@@ -138,6 +138,24 @@ std::vector<Rule> rules_of_pictures() {
           {{"title"}, without({"report"}), "{title}: is of a page: ask for {report}"}};
 }
 
+bool is_native(const Request& asked) { return asked.question.is_native(); }
+
+std::vector<Rule> rules_of_devices() {
+  return {{{"threads"},
+           [](const Request& asked) { return !is_native(asked); },
+           "{threads}: are of {device} native"},
+          {{"device"},
+           is_native,
+           "{device} native: has distances and limits alone; this command needs a Vulkan device",
+           kMetrics | kSimplify},
+          {{"stats",      "signed",  "bands",       "area",       "field",       "field-tol",
+            "image",      "report",  "figures-csv", "points-out", "certificate", "image-dir",
+            "report-dir", "metrics", "effort",      "face-max",   "face-max-b",  "align",
+            "verify",     "preset",  "enable",      "disable"},
+           is_native,
+           "{option}: needs a Vulkan device: {device} native has distances and limits alone"}};
+}
+
 std::vector<Rule> rules_of_simplify() {
   return {{{"max"},
            [](const Request& asked) { return asked.question.max_sides.has_value(); },
@@ -150,7 +168,17 @@ std::vector<Rule> rules_of_simplify() {
            kSimplify}};
 }
 
+bool needs_vulkan(const Question& q) {
+  const EngineOptions& engine = q.engine;
+  const bool has_preset = !engine.preset.empty() && engine.preset != preset_names().front();
+  return q.asks_for_cells() || q.align || q.verify || q.is_by_face() || has_preset ||
+         !engine.enabled.empty() || !engine.disabled.empty();
+}
+
 constexpr QuestionRule kQuestionRules[] = {
+    {[](const Question& q) { return q.is_native() && needs_vulkan(q); },
+     "{device} native: has distances and limits alone; figures, sides, pictures, "
+     "certificates, fits, limits of faces, {verify} and presets need a Vulkan device"},
     {[](const Question& q) { return q.metrics && (!q.symmetric || q.max); },
      "{metrics}: figures are of both directions and no verdict: leave out {max}, and a {symmetric} "
      "that is false"},
@@ -185,7 +213,7 @@ const std::vector<Rule>& rules() {
   static const std::vector<Rule> known = [] {
     std::vector<Rule> all;
     for (auto* some : {rules_of_placement, rules_of_limits, rules_of_figures, rules_of_pictures,
-                       rules_of_simplify})
+                       rules_of_devices, rules_of_simplify})
       for (Rule& rule : some()) all.push_back(std::move(rule));
     return all;
   }();

@@ -10,12 +10,15 @@
 namespace vkh {
 namespace {
 
-Opened open_one(const std::string& selector, const EngineOptions& engine,
-                const std::filesystem::path& cache_folder) {
+Opened open_one(const std::string& selector, const SessionRequest& request) {
   Opened one;
-  one.device = std::make_unique<Device>(DeviceRequest{.selector = selector});
-  one.solver = std::make_unique<Solver>(*one.device, cache_folder);
-  one.solver->make_ready(engine);
+  if (selector == kNative) {
+    one.solver = std::make_unique<Solver>(NativeProcessor{request.threads});
+  } else {
+    one.device = std::make_unique<Device>(DeviceRequest{.selector = selector});
+    one.solver = std::make_unique<Solver>(*one.device, request.cache_folder);
+  }
+  one.solver->make_ready(request.engine);
   return one;
 }
 
@@ -53,17 +56,18 @@ std::vector<std::string> selectors_of(const std::string& text) {
     }
     begin = end + 1;
   }
+  if (std::find(selectors.begin(), selectors.end(), kNative) != selectors.end())
+    throw UsageError("--device '" + text + "': native takes no part with other devices");
   return selectors;
 }
 
-Session open_session(const std::string& selector, bool several, const EngineOptions& engine,
-                     const std::filesystem::path& cache_folder) {
+Session open_session(const SessionRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<std::string> selectors =
-      several ? selectors_of(selector) : std::vector<std::string>{selector};
+      request.several ? selectors_of(request.selector) : std::vector<std::string>{request.selector};
   std::vector<Opened> opened(selectors.size());
   for_each_index(
-      selectors.size(), [&](size_t i) { opened[i] = open_one(selectors[i], engine, cache_folder); },
+      selectors.size(), [&](size_t i) { opened[i] = open_one(selectors[i], request); },
       selectors.size());
   Session session;
   session.device = std::move(opened[0].device);

@@ -11,12 +11,12 @@
 namespace vkh {
 
 struct Opened {
-  std::unique_ptr<Device> device;
+  std::unique_ptr<Device> device;  ///< null: the solver is native
   std::unique_ptr<Solver> solver;
 };
 
 struct Session {
-  std::unique_ptr<Device> device;
+  std::unique_ptr<Device> device;  ///< null: the solver is native
   std::unique_ptr<Solver> solver;
   std::vector<Opened> more;  ///< the other devices, if several were asked for
   double setup_ms = 0;       ///< the time to make it
@@ -24,12 +24,18 @@ struct Session {
 
 /// Splits "all", every GPU, or the CPU device where there is none; else names that DeviceRequest
 /// takes, between commas, unless it is a device's name that has some. Throws UsageError for an
-/// empty one.
+/// empty one, and for kNative among others.
 std::vector<std::string> selectors_of(const std::string& text);
 
-/// Throws what Device and Solver throw. `selector`: DeviceRequest::selector, or a text for
-/// selectors_of(), if `several` may be asked for. `cache_folder`: see Solver.
-Session open_session(const std::string& selector, bool several, const EngineOptions& engine,
-                     const std::filesystem::path& cache_folder);
+struct SessionRequest {
+  std::string selector;  ///< DeviceRequest::selector or kNative; a text for selectors_of()
+  bool several = false;  ///< ... which may name several devices
+  size_t threads = 0;    ///< NativeProcessor::threads
+  EngineOptions engine = {};
+  std::filesystem::path cache_folder = {};  ///< see Solver
+};
+
+/// Throws what selectors_of(), Device and Solver throw.
+Session open_session(const SessionRequest& request);
 
 }  // namespace vkh

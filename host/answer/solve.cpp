@@ -76,8 +76,8 @@ void solve_by_face(const Question& question, const AskedMeshes& meshes, Solver& 
 void note_left_out(std::span<Solver* const> solvers, Answer& answer) {
   for (const LeftOut& one : answer.a_to_b.left_out) {
     answer.notes.push_back(note_of(
-        NoteCode::kDevices, "the others did the part of " +
-                                solvers[one.device]->device().description().name + ": " + one.why));
+        NoteCode::kDevices,
+        "the others did the part of " + solvers[one.device]->description().name + ": " + one.why));
   }
 }
 

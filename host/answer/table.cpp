@@ -146,6 +146,7 @@ std::string length_text(const Answer& answer, const Length& asked, double resolv
 }
 
 std::string device_text(const DeviceDescription& d) {
+  if (d.type == kNative) return d.name;
   const std::string type = d.type == "cpu" ? "a CPU device, no GPU" : d.type;
   return d.name + " (" + type + "), driver " + d.driver + ", Vulkan " + d.api_version;
 }

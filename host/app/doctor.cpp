@@ -9,6 +9,7 @@
 #include "host/base/decimal.h"
 #include "host/mesh/default_pair.h"
 #include "host/mesh/mesh_pair.h"
+#include "host/native/arithmetic_check.h"
 #include "vkhausdorff/answer.h"
 #include "vkhausdorff/device.h"
 #include "vkhausdorff/error.h"
@@ -41,10 +42,9 @@ struct Findings {
   }
 };
 
-bool self_check(const Findings& found, Device& device) {
+bool self_check(const Findings& found, Solver& solver) {
   const MeshPair pair = self_check_pair();
   const auto start = std::chrono::steady_clock::now();
-  Solver solver(device);
   const Report r = solver.distance(pair.a, pair.b);
   const auto elapsed = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::steady_clock::now() - start);
@@ -111,9 +111,8 @@ bool check_arithmetic(const Findings& found, const Device& device) {
 }
 
 /// The first run makes the pipelines, and the second is timed.
-Json times_json(Device& device) {
+Json times_json(Solver& solver) {
   const MeshPair pair = default_pair();
-  Solver solver(device);
   solver.distance(pair.a, pair.b);
   const Report r = solver.distance(pair.a, pair.b);
   return {{"faces_a", r.mesh_a.faces},
@@ -161,8 +160,20 @@ void print_chosen(std::ostream& out, const DeviceDescription& chosen) {
       << chosen.driver << ", Vulkan " << chosen.api_version << std::endl;
 }
 
-bool examine(const Findings& found, const std::string& selector) {
-  found.out << "vkhausdorff " << program_version() << '\n';
+bool examine_native(const Findings& found) {
+  const std::string fault = native::arithmetic_fault();
+  found.add("arithmetic", {{"passed", fault.empty()}, {"fault", text_or_null(fault)}});
+  found.out << "arithmetic  "
+            << (fault.empty() ? "passed; each operation rounds to nearest, and nothing is flushed"
+                              : "FAILED: " + fault)
+            << '\n';
+  Solver solver{NativeProcessor()};
+  const bool is_sound = self_check(found, solver) && fault.empty();
+  if (found.json != nullptr) found.add("times", times_json(solver));
+  return is_sound;
+}
+
+bool examine_device(const Findings& found, const std::string& selector) {
   const std::string loader = loader_version();
   found.add("loader", loader);
   found.out << "loader      Vulkan " << loader << "\ndevices, the preferred first\n";
@@ -171,9 +182,18 @@ bool examine(const Findings& found, const std::string& selector) {
   print_chosen(found.out, device.description());
   found.add("device", properties_json(device));
   const bool is_exact = check_arithmetic(found, device);
-  const bool is_sound = self_check(found, device) && is_exact;
-  if (found.json != nullptr) found.add("times", times_json(device));
+  Solver solver(device);
+  const bool is_sound = self_check(found, solver) && is_exact;
+  if (found.json != nullptr) found.add("times", times_json(solver));
   return is_sound;
+}
+
+bool examine(const Findings& found, const std::string& selector) {
+  const std::string native = describe(NativeProcessor()).name;
+  found.add("native", native);
+  found.out << "vkhausdorff " << program_version() << "\nprocessor   " << native
+            << ": by --device native, without Vulkan" << std::endl;
+  return selector == kNative ? examine_native(found) : examine_device(found, selector);
 }
 
 }  // namespace
@@ -184,8 +204,8 @@ bool examine_devices(std::ostream& out, const std::string& selector, Json* json)
   found.add("version", program_version());
   found.add("system", system_name());
   found.add("problem", nullptr);
-  for (const char* part :
-       {"loader", "devices", "device", "arithmetic", "subgroup_operations", "self_check", "times"})
+  for (const char* part : {"native", "loader", "devices", "device", "arithmetic",
+                           "subgroup_operations", "self_check", "times"})
     found.add(part, nullptr);
   try {
     return examine(found, selector);

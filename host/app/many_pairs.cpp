@@ -133,6 +133,7 @@ BatchJob batch_of(const Request& request, PairList& list) {
   batch.devices.together = asked.together;
   batch.devices.lanes = asked.lanes;
   batch.devices.devices = selectors_of(question.device);
+  batch.devices.threads = question.threads;
   if (question.caches) batch.devices.cache_folder = user_cache_folder();
   batch.devices.first = engine_of(question);
   batch.read_ahead_bytes = asked.read_ahead_bytes;

@@ -117,11 +117,11 @@ SimplifyPlaces SimplifyCommand::places() const {
 void SimplifyCommand::read() {
   const bool is_share = question_.max->of == Length::Of::kDiagonal;
   const double share = is_share ? question_.max->number : 1;
-  auto opening =
-      begin_now([selector = question_.device, engine = simplify_engine(question_.engine, share),
-                 cache = question_.caches ? user_cache_folder() : std::filesystem::path()] {
-        return open_session(selector, false, engine, cache);
-      });
+  const SessionRequest request{
+      .selector = question_.device,
+      .engine = simplify_engine(question_.engine, share),
+      .cache_folder = question_.caches ? user_cache_folder() : std::filesystem::path()};
+  auto opening = begin_now([request] { return open_session(request); });
   ReadLimits limits = question_.limits;
   limits.keep_going = [this] { return !stop_.is_asked(); };
   a_ = read_mesh(path_of(question_.file_a), limits);

@@ -70,6 +70,10 @@ unsigned long process_id();
 /// This machine's name; empty if it has none.
 std::string host_name();
 
+/// The processor's name, such as "AMD EPYC 7763 64-Core Processor"; "unknown processor" if the
+/// system does not say it.
+std::string processor_name();
+
 /// Ends the program now, without exit handlers, and without the libraries' own: our threads may be
 /// within a driver.
 [[noreturn]] void end_process(int code);

@@ -1,9 +1,14 @@
+#include <sys/utsname.h>
 #include <unistd.h>
+#ifdef __APPLE__
+#include <sys/sysctl.h>
+#endif
 
 #include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 
 #include "host/base/begin_now.h"
 #include "host/base/system.h"
@@ -29,6 +34,13 @@ void note_signal(int signal) {
   action.sa_handler = on_interrupt;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigaction(signal, &action, nullptr);
+}
+
+constexpr const char* kUnknownProcessor = "unknown processor";
+
+std::string machine_name() {
+  utsname names{};
+  return uname(&names) == 0 ? names.machine : kUnknownProcessor;
 }
 
 }  // namespace
@@ -61,6 +73,26 @@ std::string host_name() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
+
+#ifdef __APPLE__
+std::string processor_name() {
+  std::array<char, 256> name{};
+  size_t size = name.size() - 1;
+  const bool is_known =
+      sysctlbyname("machdep.cpu.brand_string", name.data(), &size, nullptr, 0) == 0;
+  return is_known && name[0] != '\0' ? name.data() : machine_name();
+}
+#else
+// Linux names no processor on ARM; the machine's kind is then all that there is.
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    const size_t at = line.find(": ");
+    if (line.starts_with("model name") && at != std::string::npos) return line.substr(at + 2);
+  }
+  return machine_name();
+}
+#endif
 
 void end_process(int code) { std::_Exit(code); }
 

@@ -94,6 +94,14 @@ std::string host_name() {
   return GetComputerNameW(name.data(), &length) != 0 ? name_of(fs::path(name.data())) : "";
 }
 
+std::string processor_name() {
+  std::array<wchar_t, 256> name{};
+  const DWORD length = GetEnvironmentVariableW(L"PROCESSOR_IDENTIFIER", name.data(),
+                                               static_cast<DWORD>(name.size()));
+  const bool is_known = length > 0 && length < name.size();
+  return is_known ? name_of(fs::path(name.data())) : "unknown processor";
+}
+
 unsigned long process_id() { return GetCurrentProcessId(); }
 
 // Avoids ExitProcess, which _Exit calls: it ends the other threads first, then notifies every

@@ -18,7 +18,8 @@ VulkanApi load_vulkan() {
   vk.GetInstanceProcAddr =
       reinterpret_cast<PFN_vkGetInstanceProcAddr>(vulkan_loader_function("vkGetInstanceProcAddr"));
   if (vk.GetInstanceProcAddr == nullptr)
-    throw DeviceError(std::string("no Vulkan loader (") + kVulkanLoader + ")");
+    throw DeviceError(std::string("no Vulkan loader (") + kVulkanLoader +
+                      "); distances and limits are to be had without, by device native");
 #ifdef VKH_DEBUGGING
   vk.GetInstanceProcAddr = with_shader_folder(vk.GetInstanceProcAddr);
 #endif

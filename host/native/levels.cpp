@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "host/base/parallel.h"
 #include "host/native/cascade.h"
 
 namespace vkh::native {
@@ -32,15 +31,24 @@ bool is_sooner(const Candidate& p, const Candidate& q) {
 
 }  // namespace
 
-Levels::Levels(const Problem& problem, double tolerance, const NativeOptions& options)
-    : problem_(problem), tolerance_(tolerance), options_(options) {}
+Levels::Levels(const Problem& problem, const Goal& goal, const NativeOptions& options,
+               std::function<bool()> keep_going)
+    : problem_(problem),
+      goal_(goal),
+      most_(std::max<size_t>(options.memory_bytes / kBytesOfCandidate, 1)),
+      pool_(options.threads, std::move(keep_going), "the run was ended") {}
+
+// What was given up keeps the upper end where it is: nothing below it needs refining.
+double Levels::threshold() const {
+  const double near = max(total_.best.distance, goal_.known_lower) + goal_.tolerance;
+  return max(max(near, goal_.within), given_up_);
+}
 
 template <class Work>
 std::vector<Levels::Piece> Levels::in_pieces(size_t count, size_t size, const Work& work) {
   std::vector<Piece> pieces((count + size - 1) / size);
-  for_each_index(
-      pieces.size(), [&](size_t i) { work(pieces[i], i * size, std::min((i + 1) * size, count)); },
-      options_.threads);
+  pool_.for_each(pieces.size(),
+                 [&](size_t i) { work(pieces[i], i * size, std::min((i + 1) * size, count)); });
   return pieces;
 }
 
@@ -50,6 +58,12 @@ void Levels::take_over(const std::vector<Piece>& pieces) {
     open_.insert(open_.end(), piece.open.begin(), piece.open.end());
   }
   peak_ = std::max(peak_, open_.size());
+}
+
+void Levels::end_level() {
+  upper_ = total_.largest_closed;
+  for (const Candidate& c : open_) upper_ = max(upper_, c.upper);
+  ++levels_;
 }
 
 // Neighbours in a file are mostly neighbours: a search starts from the triangle of the one before.
@@ -65,7 +79,7 @@ void Levels::query_vertices(Piece& piece, size_t begin, size_t end) {
   }
 }
 
-void Levels::start() {
+void Levels::ask_vertices() {
   of_vertex_.resize(problem_.placed_a.at.size());
   take_over(in_pieces(of_vertex_.size(), kVerticesOfPiece,
                       [&](Piece& p, size_t begin, size_t end) { query_vertices(p, begin, end); }));
@@ -80,10 +94,14 @@ void Levels::start() {
     offer(faces[f].y, corner.b);
     offer(faces[f].z, corner.c);
   }
-  take_over(in_pieces(faces.size(), kFacesAtOnce, [&](Piece& piece, size_t begin, size_t end) {
+}
+
+void Levels::bound_faces() {
+  const size_t count = problem_.a.faces.size();
+  take_over(in_pieces(count, kFacesAtOnce, [&](Piece& piece, size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) bound_face(piece, static_cast<uint32_t>(f));
   }));
-  ++levels_;
+  end_level();
 }
 
 void Levels::bound_face(Piece& piece, uint32_t f) const {
@@ -104,16 +122,26 @@ void Levels::bound_face(Piece& piece, uint32_t f) const {
       {whole, f, {near[0].place, near[1].place, near[2].place}, verdict.centre, verdict.upper});
 }
 
-// The candidates that a level refines are left in open_, and those that wait are returned.
-std::vector<Candidate> Levels::waiting() {
-  const size_t held = open_.size(), most = options_.most_candidates;
-  const size_t room = most > held ? std::max<size_t>((most - held) / 3, 1) : 1;
-  if (held <= room) return {};
+// Leaves half of the room, where less than a quarter is left. Those with the smallest u go: what
+// is left may still bring the upper end down to them.
+void Levels::give_up() {
+  if (open_.size() <= most_ - most_ / 4) return;
+  const auto kept = open_.end() - static_cast<std::ptrdiff_t>(most_ / 2);
+  if (kept < open_.end()) std::nth_element(open_.begin(), kept, open_.end(), is_sooner);
+  for (auto c = open_.begin(); c < kept; ++c) given_up_ = max(given_up_, c->upper);
+  total_.largest_closed = max(total_.largest_closed, given_up_);
+  open_.erase(open_.begin(), kept);
+}
+
+// Brings the candidates that the level refines to the front of open_, and returns how many: each
+// may become four.
+size_t Levels::choose_refined() {
+  const size_t held = open_.size();
+  const size_t room = std::max<size_t>((most_ - held) / 3, 1);
+  if (held <= room) return held;
   const auto cut = open_.begin() + static_cast<std::ptrdiff_t>(room);
   std::nth_element(open_.begin(), cut, open_.end(), is_sooner);
-  std::vector<Candidate> rest(cut, open_.end());
-  open_.resize(room);
-  return rest;
+  return room;
 }
 
 // The code of the candidate's split; kSplitNone if its bits have run out, or if it is so small that
@@ -121,7 +149,7 @@ std::vector<Candidate> Levels::waiting() {
 uint32_t Levels::choose_split(const Candidate& c, const Face& face) const {
   const Corners t = local_corners(face, c.at);
   const vec3 ab = t.b - t.a, ac = t.c - t.a;
-  const double tiny = 0.0625 * tolerance_;
+  const double tiny = 0.0625 * goal_.tolerance;
   if (max(dot3(ab, ab), dot3(ac, ac)) < tiny * tiny) return kSplitNone;
   if (quality(t) < kThinQuality) {
     const uint x = opposite_longest(t);
@@ -182,28 +210,20 @@ void Levels::bound_children(Piece& piece, const Split& s) const {
 }
 
 void Levels::advance() {
-  std::vector<Candidate> rest = waiting();
+  give_up();
+  const size_t refined = choose_refined();
   std::vector<Piece> pieces =
-      in_pieces(open_.size(), kParentsOfPiece, [&](Piece& piece, size_t begin, size_t end) {
+      in_pieces(refined, kParentsOfPiece, [&](Piece& piece, size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) split(piece, static_cast<uint32_t>(i));
       });
   for (const Piece& piece : pieces) total_.add(piece.gain);
   for (Piece& piece : pieces) piece.gain = {};
-  for_each_index(
-      pieces.size(),
-      [&](size_t i) {
-        for (const Split& s : pieces[i].splits) bound_children(pieces[i], s);
-      },
-      options_.threads);
-  open_ = std::move(rest);
+  pool_.for_each(pieces.size(), [&](size_t i) {
+    for (const Split& s : pieces[i].splits) bound_children(pieces[i], s);
+  });
+  open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(refined));
   take_over(pieces);
-  ++levels_;
-}
-
-double Levels::largest_open() const {
-  double largest = 0;
-  for (const Candidate& c : open_) largest = max(largest, c.upper);
-  return largest;
+  end_level();
 }
 
 }  // namespace vkh::native

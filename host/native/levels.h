@@ -3,26 +3,43 @@
 
 #include <vector>
 
+#include "host/base/thread_pool.h"
 #include "host/native/candidate.h"
 #include "host/native/native.h"
 
 namespace vkh::native {
 
+/// What need not be refined, in the frame: what is within the tolerance of the best sample or of a
+/// known lower bound, and what is within a limit.
+struct Goal {
+  double tolerance;
+  double known_lower;
+  double within;  ///< 0 or less: no limit
+};
+
+/// While a level is joined a candidate is there twice, and vectors grow ahead of their need.
+constexpr size_t kBytesOfCandidate = 3 * sizeof(Candidate);
+
 /// The state between two levels. Work on it is cut into pieces that do not depend on the number of
 /// threads, and each piece leaves its own results, which are joined in order: so do no bits.
+/// Whatever asks `keep_going` throws Interrupted where that says no, and leaves a true state.
 class Levels {
  public:
-  /// `tolerance`: how far above the best sample candidates are closed, in the frame.
-  Levels(const Problem& problem, double tolerance, const NativeOptions& options);
+  Levels(const Problem& problem, const Goal& goal, const NativeOptions& options,
+         std::function<bool()> keep_going);
 
-  void start();    ///< A's vertices, and then its faces whole
-  void advance();  ///< one level
-  bool is_over() const { return open_.empty(); }
+  void ask_vertices();  ///< first: of A
+  void bound_faces();   ///< next, the first level: A's faces whole
+  void advance();       ///< one level more
+  bool is_over() const { return levels_ > 0 && open_.empty(); }
 
   const Gain& total() const { return total_; }
-  double largest_open() const;
+  double upper() const { return upper_; }  ///< of all that is closed or open
   uint32_t count() const { return levels_; }
+  size_t open() const { return open_.size(); }
   size_t peak() const { return peak_; }
+  size_t threads() const { return pool_.threads(); }
+  bool has_given_up() const { return given_up_ >= 0; }
 
  private:
   struct Piece {
@@ -33,21 +50,26 @@ class Levels {
   template <class Work>
   std::vector<Piece> in_pieces(size_t count, size_t size, const Work& work);
 
-  double threshold() const { return total_.best.distance + tolerance_; }
+  double threshold() const;
   void query_vertices(Piece& piece, size_t begin, size_t end);
   void bound_face(Piece& piece, uint32_t f) const;
   uint32_t choose_split(const Candidate& c, const Face& face) const;
   void split(Piece& piece, uint32_t number) const;
   void bound_children(Piece& piece, const Split& s) const;
   void take_over(const std::vector<Piece>& pieces);
-  std::vector<Candidate> waiting();
+  void end_level();
+  void give_up();
+  size_t choose_refined();
 
   const Problem& problem_;
-  double tolerance_;
-  NativeOptions options_;
+  const Goal goal_;
+  const size_t most_;  // candidates
+  const ThreadPool pool_;
   std::vector<Nearest> of_vertex_;
   std::vector<Candidate> open_;
   Gain total_;
+  double upper_ = std::numeric_limits<double>::infinity();
+  double given_up_ = -1;  // the largest u that was
   uint32_t levels_ = 0;
   size_t peak_ = 0;
 };

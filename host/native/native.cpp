@@ -1,20 +1,29 @@
 #include "host/native/native.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "host/base/float_environment.h"
 #include "host/base/rounding.h"
 #include "host/native/levels.h"
 #include "host/native/witness.h"
+#include "vkhausdorff/error.h"
 #include "vkhausdorff/frame.h"
 #include "vkhausdorff/length.h"
 
 namespace vkh::native {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 // Rounding leaves less between the two ends than this, in a frame of order 1: some 30 kUlp of
 // surfaces' slack, whose radius is under 4, on either side. Less would refine noise.
 constexpr double kToleranceFloor = 0x1p-44;
+
+constexpr std::chrono::milliseconds kBetweenAsking(20);
+// A lower end that is only reported is proven no more often: that looks at all of B.
+constexpr std::chrono::milliseconds kBetweenProofs(100);
 
 double tolerance_in_files(const Problem& problem, const NativeOptions& options) {
   if (options.tolerance_is_absolute) return options.tolerance;
@@ -22,20 +31,137 @@ double tolerance_in_files(const Problem& problem, const NativeOptions& options) 
                        Diagonal(diagonal(problem.box_a), problem.a.delta).least());
 }
 
-double tolerance_in_frame(const Problem& problem, double in_files) {
-  const double given = problem.frame.to_frame(in_files) - 2 * problem.displacement;
-  return std::max(given - kToleranceFloor, kToleranceFloor);
+/// Distances, in the frame, that steer what is closed: what to_files() makes of an upper end there
+/// is no larger than what was asked.
+Goal goal_of(const Problem& problem, const NativeOptions& options) {
+  const Frame& frame = problem.frame;
+  const double tolerance =
+      frame.to_frame(tolerance_in_files(problem, options)) - 2 * problem.displacement;
+  return {.tolerance = std::max(tolerance - kToleranceFloor, kToleranceFloor),
+          .known_lower = frame.to_frame(options.known_lower),
+          .within = add_down(frame.to_frame(options.limit.within), -problem.displacement)};
 }
 
-NativeWitness witness_of(const Problem& problem, const Sample& s) {
-  const double v = s.at.x * kUnit, w = s.at.y * kUnit;
-  return {.face_a = s.face, .face_b = problem.tree.face(s.place), .barycentric = {1 - v - w, v, w}};
-}
+class Run {
+ public:
+  Run(const Mesh& a, const Mesh& b, const NativeOptions& options)
+      : options_(options),
+        problem_(a, b),
+        levels_(problem_, goal_of(problem_, options), options, [this] { return is_going(); }) {}
 
-NativeStatus status_of(const NativeReport& r, bool is_over) {
-  if (is_within(r.lower, r.upper, r.tolerance)) return NativeStatus::kClosed;
-  return is_over ? NativeStatus::kPrecision : NativeStatus::kLevels;
-}
+  NativeReport report() {
+    run();
+    prove();
+    NativeReport r = counts();
+    const FileInterval ends = interval();
+    r.lower = ends.lower;
+    r.upper = ends.upper;
+    r.diagonal_a = diagonal(problem_.box_a);
+    r.tolerance = tolerance_in_files(problem_, options_);
+    r.status = status_of(r);
+    if (levels_.total().best.face != kNone) put_witness(r);
+    return r;
+  }
+
+ private:
+  void run() {
+    try {
+      levels_.ask_vertices();
+      if (is_decided() || !is_to_go_on()) return;
+      levels_.bound_faces();
+      while (!levels_.is_over() && levels_.count() < options_.level_limit) {
+        if (is_decided() || !is_to_go_on()) return;
+        levels_.advance();
+      }
+    } catch (const Interrupted&) {
+      if (!is_ended_) throw;
+    }
+  }
+
+  // Any thread of a level calls this; goes_on() is asked on the caller's alone.
+  bool is_going() {
+    if (std::this_thread::get_id() != home_ || Clock::now() - asked_at_ < kBetweenAsking)
+      return true;
+    return ask();
+  }
+
+  bool is_to_go_on() {
+    if (options_.goes_on && Clock::now() - proven_at_ > kBetweenProofs) prove();
+    return ask();
+  }
+
+  bool ask() {
+    if (!options_.goes_on) return true;
+    const FileInterval ends = interval();
+    is_ended_ = !options_.goes_on({.levels = levels_.count(),
+                                   .open = levels_.open(),
+                                   .lower = ends.lower,
+                                   .upper = ends.upper,
+                                   .diagonal_a = diagonal(problem_.box_a)});
+    asked_at_ = Clock::now();
+    return !is_ended_;
+  }
+
+  // A distance within the limit leaves nothing open, so that only one beyond it ends a run sooner.
+  bool is_decided() {
+    const Limit& limit = options_.limit;
+    if (!(limit.within > 0)) return false;
+    const double beyond = problem_.frame.to_frame(limit.beyond) + problem_.displacement;
+    if (!(levels_.total().best.distance > beyond)) return false;
+    prove();
+    return interval().lower > limit.beyond;
+  }
+
+  // Makes the lower end that of the best sample.
+  void prove() {
+    const Sample& best = levels_.total().best;
+    if (best.face == kNone || best.distance == proven_distance_) return;
+    lower_ = witness_distance_down(problem_, best, levels_.threads());
+    proven_distance_ = best.distance;
+    proven_at_ = Clock::now();
+  }
+
+  FileInterval interval() const {
+    const double farthest = farthest_in(problem_.joint, add_up(problem_.a.delta, problem_.b.delta));
+    return problem_.frame.to_files(lower_, std::max(lower_, levels_.upper()), problem_.displacement,
+                                   farthest);
+  }
+
+  NativeReport counts() const {
+    NativeReport r;
+    const Gain& total = levels_.total();
+    r.levels = levels_.count();
+    r.candidates = total.candidates;
+    r.queries = total.queries;
+    r.peak_candidates = levels_.peak();
+    r.peak_bytes = levels_.peak() * kBytesOfCandidate;
+    r.closed = total.closed;
+    return r;
+  }
+
+  NativeStatus status_of(const NativeReport& r) const {
+    if (is_within(r.lower, r.upper, r.tolerance)) return NativeStatus::kClosed;
+    if (levels_.is_over())
+      return levels_.has_given_up() ? NativeStatus::kMemory : NativeStatus::kPrecision;
+    return levels_.count() < options_.level_limit ? NativeStatus::kStopped : NativeStatus::kLevels;
+  }
+
+  void put_witness(NativeReport& r) const {
+    const Sample& s = levels_.total().best;
+    const double v = s.at.x * kUnit, w = s.at.y * kUnit;
+    r.witness = {
+        .face_a = s.face, .face_b = problem_.tree.face(s.place), .barycentric = {1 - v - w, v, w}};
+    r.has_witness = true;
+  }
+
+  const NativeOptions& options_;
+  const Problem problem_;
+  Levels levels_;
+  double lower_ = 0, proven_distance_ = -1;
+  bool is_ended_ = false;
+  const std::thread::id home_ = std::this_thread::get_id();
+  Clock::time_point asked_at_ = Clock::now(), proven_at_ = asked_at_;
+};
 
 }  // namespace
 
@@ -43,27 +169,7 @@ NativeReport run_pair(const Mesh& a, const Mesh& b, const NativeOptions& options
   const FloatEnvironment ours;
   check_mesh(a);
   check_mesh(b);
-  const Problem problem(a, b);
-  NativeReport r;
-  r.tolerance = tolerance_in_files(problem, options);
-  Levels levels(problem, tolerance_in_frame(problem, r.tolerance), options);
-  levels.start();
-  while (!levels.is_over() && levels.count() < options.level_limit) levels.advance();
-  const Gain& total = levels.total();
-  const double lower = witness_distance_down(problem, total.best, options.threads);
-  const double upper = std::max({lower, total.largest_closed, levels.largest_open()});
-  const FileInterval ends = problem.frame.to_files(
-      lower, upper, problem.displacement, farthest_in(problem.joint, add_up(a.delta, b.delta)));
-  r.lower = ends.lower;
-  r.upper = ends.upper;
-  r.status = status_of(r, levels.is_over());
-  r.witness = witness_of(problem, total.best);
-  r.levels = levels.count();
-  r.candidates = total.candidates;
-  r.queries = total.queries;
-  r.peak_candidates = levels.peak();
-  r.closed = total.closed;
-  return r;
+  return Run(a, b, options).report();
 }
 
 }  // namespace vkh::native

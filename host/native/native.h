@@ -4,25 +4,43 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <functional>
+#include <limits>
 
+#include "vkhausdorff/limit.h"
 #include "vkhausdorff/mesh.h"
 
 namespace vkh::native {
 
+/// How far a run is. The interval is true, in the files' unit.
+struct NativeProgress {
+  uint32_t levels = 0;
+  uint64_t open = 0;
+  double lower = 0, upper = 0;
+  double diagonal_a = 0;
+};
+
 struct NativeOptions {
   double tolerance = 1e-6;  ///< of the least diagonal of A, or in the files' unit
   bool tolerance_is_absolute = false;
-  uint32_t level_limit = 1000;
-  /// A level refines no more candidates than fit: those with the smallest u, and others wait.
-  size_t most_candidates = size_t{1} << 26;
-  size_t threads = 1;
+  double known_lower =
+      0;             ///< a distance that the answer need not resolve below; in the files' unit
+  Limit limit = {};  ///< the run ends once the distance is proven to be within or beyond it
+  uint32_t level_limit = std::numeric_limits<uint32_t>::max();
+  /// What candidates may take. Where they would take more, a level refines those with the smallest
+  /// u and the others wait; where even that is too much, the smallest u are given up.
+  uint64_t memory_bytes = uint64_t{3} << 30;
+  size_t threads = 1;  ///< 0: one for each core
+  /// Asked on the calling thread, after each level and about every 20 ms. False ends the run.
+  std::function<bool(const NativeProgress&)> goes_on = {};
 };
 
 enum class NativeStatus {
   kClosed,     ///< upper - lower <= tolerance
-  kPrecision,  ///< what is left cannot be decided in doubles
+  kPrecision,  ///< what is left cannot be decided in doubles, or need not be
   kLevels,     ///< the level limit ended the run
+  kMemory,     ///< candidates were given up
+  kStopped,    ///< goes_on() said no, or the limit was decided
 };
 
 struct NativeWitness {
@@ -33,14 +51,17 @@ struct NativeWitness {
 struct NativeReport {
   NativeStatus status = NativeStatus::kClosed;
   double lower = 0, upper = 0;  ///< lower <= h(A, B) <= upper, in the files' unit
+  double diagonal_a = 0;        ///< rounded to nearest
   double tolerance = 0;         ///< in the files' unit
   NativeWitness witness;
+  bool has_witness = false;  ///< false: the run was ended before any sample
   uint32_t levels = 0;
-  uint64_t candidates = 0, queries = 0, peak_candidates = 0;
+  uint64_t candidates = 0, queries = 0, peak_candidates = 0, peak_bytes = 0;
   std::array<uint64_t, 7> closed{};  ///< by exact case, u1, u2, ha, u3, a risen bound, precision
 };
 
-/// The same bits for any number of threads. Throws InputError for what is no mesh.
+/// The same bits for any number of threads, unless goes_on() ends it. Throws InputError for what is
+/// no mesh, and what goes_on() throws.
 NativeReport run_pair(const Mesh& a, const Mesh& b, const NativeOptions& options = {});
 
 }  // namespace vkh::native

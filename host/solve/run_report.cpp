@@ -2,10 +2,29 @@
 
 #include <algorithm>
 
+#include "host/base/rounding.h"
 #include "host/mesh/closest.h"
 #include "shaders/gpu_types.h"
 
 namespace vkh {
+
+Report report_on(const Mesh& a, const Mesh& b, const SolveOptions& options) {
+  Report out;
+  out.known_lower = options.known_lower;
+  out.limit = options.limit;
+  out.mesh_a = a.counts;
+  out.mesh_b = b.counts;
+  out.place_a = {a.delta, a.unit};
+  out.place_b = {b.delta, b.unit};
+  return out;
+}
+
+std::optional<Status> reached_by(const Report& r) {
+  if (is_within(r.lower, r.upper, r.tolerance)) return Status::kClosed;
+  if (r.known_lower > 0 && is_within(r.known_lower, r.upper, r.tolerance)) return Status::kPruned;
+  if (is_decided(r.lower, r.upper, r.limit)) return Status::kLimit;
+  return std::nullopt;
+}
 
 void fill_counts(const RunOutput& run, const Frame& frame, Report& out) {
   const VkhReport& r = run.report;
@@ -44,15 +63,20 @@ void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out)
     return r.witnessBarycentric[i] * 0x1p-20 + r.witnessBarycentricLow[i] * 0x1p-40;
   };
   const double v = coordinate(0), w = coordinate(1);
-  const glm::uvec3 fa = a.faces[r.witnessFaceA];
-  const glm::dvec3 p = (1 - v - w) * a.vertices[fa.x] + v * a.vertices[fa.y] + w * a.vertices[fa.z];
-  out.witness_a = {.barycentric = {1 - v - w, v, w}, .point = p};
-  out.witness_a.set_face(a, r.witnessFaceA);
-  const glm::uvec3 fb = b.faces[r.witnessFaceB];
+  fill_witness({r.witnessFaceA, r.witnessFaceB, {1 - v - w, v, w}}, a, b, out);
+}
+
+void fill_witness(const FoundWitness& found, const Mesh& a, const Mesh& b, Report& out) {
+  const glm::dvec3 at = found.barycentric;
+  const glm::uvec3 fa = a.faces[found.face_a];
+  const glm::dvec3 p = at.x * a.vertices[fa.x] + at.y * a.vertices[fa.y] + at.z * a.vertices[fa.z];
+  out.witness_a = {.barycentric = found.barycentric, .point = p};
+  out.witness_a.set_face(a, found.face_a);
+  const glm::uvec3 fb = b.faces[found.face_b];
   const ClosestPoint q =
       closest_point_of_any_size(p, b.vertices[fb.x], b.vertices[fb.y], b.vertices[fb.z]);
   out.witness_b = {.barycentric = q.barycentric, .point = q.point};
-  out.witness_b.set_face(b, r.witnessFaceB);
+  out.witness_b.set_face(b, found.face_b);
   out.has_witness = true;
 }
 

@@ -7,8 +7,20 @@
 
 namespace vkh {
 
+/// A report of what is asked, before the run.
+Report report_on(const Mesh& a, const Mesh& b, const SolveOptions& options);
+/// The status that a report's interval gives it, whatever ended the run; nothing: it is open.
+std::optional<Status> reached_by(const Report& r);
+
 void fill_counts(const RunOutput& r, const Frame& frame, Report& out);
 void fill_stages(const RunOutput& run, Report& out);
 void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out);
+
+/// A point of A's face by its barycentrics, and the face of B whose closest point is B's witness.
+struct FoundWitness {
+  uint32_t face_a, face_b;
+  DVec3 barycentric;
+};
+void fill_witness(const FoundWitness& found, const Mesh& a, const Mesh& b, Report& out);
 
 }  // namespace vkh

@@ -15,6 +15,7 @@
 #include "host/solve/closest_search.h"
 #include "host/solve/coverage.h"
 #include "host/solve/held_pairs.h"
+#include "host/solve/native_runs.h"
 #include "host/solve/pair.h"
 #include "host/solve/run.h"
 #include "host/solve/run_report.h"
@@ -45,10 +46,7 @@ bool is_surely_zero(const VkhReport& r, const Pair& pair) {
 }
 
 Status status_of(const VkhReport& r, const Report& out, Status ended) {
-  if (is_within(out.lower, out.upper, out.tolerance)) return Status::kClosed;
-  if (out.known_lower > 0 && is_within(out.known_lower, out.upper, out.tolerance))
-    return Status::kPruned;
-  if (is_decided(out.lower, out.upper, out.limit)) return Status::kLimit;
+  if (const std::optional<Status> reached = reached_by(out)) return *reached;
   if (r.status == VKH_STATUS_RUNNING && ended != Status::kClosed) return ended;
   return r.status == VKH_STATUS_MEMORY ? Status::kMemory : Status::kPrecision;
 }
@@ -80,10 +78,32 @@ Solver::Solver(Device& device, const std::filesystem::path& cache_folder) {
 }
 Solver::Solver(SharesPipelines, const Solver& other) {
   const FloatEnvironment ours;
-  impl_ = std::make_unique<Impl>(other.impl_->device, other.impl_->contexts);
+  if (other.native_ != nullptr) {
+    native_ = std::make_unique<const NativeRuns>(*other.native_);
+  } else {
+    impl_ = std::make_unique<Impl>(other.impl_->device, other.impl_->contexts);
+  }
 }
+Solver::Solver(const NativeProcessor& processor)
+    : native_(std::make_unique<const NativeRuns>(processor)) {}
 Solver::~Solver() = default;
-const Device& Solver::device() const { return impl_->device; }
+
+Solver::Impl& Solver::on_device() const {
+  if (native_ != nullptr) refuse_natively("what is asked for");
+  return *impl_;
+}
+const Device& Solver::device() const { return on_device().device; }
+const DeviceDescription& Solver::description() const {
+  return native_ != nullptr ? native_->description() : impl_->device.description();
+}
+
+std::vector<Report> Solver::run(std::span<const PairView> pairs,
+                                const std::vector<SolveOptions>& options,
+                                const std::function<double()>& known_since) {
+  if (native_ == nullptr) return impl_->distances(pairs, options, known_since);
+  if (known_since) refuse_natively("a run over several devices");
+  return native_->distances(pairs, options);
+}
 
 struct PreparedMesh::Impl : KeptMesh {};
 
@@ -146,19 +166,13 @@ Report report_of(const RunOutput& run, const Watch& watch) {
     throw InputError("the device says that a mesh is none (VKH_STATUS_INPUT)");
   const Pair& pair = watch.pair;
   const SolveOptions& options = pair.options;
-  Report out;
+  Report out = report_on(pair.a, pair.b, options);
   out.diagonal_a = watch.diagonal_a;
   out.tolerance = tolerance_of(pair);
-  out.known_lower = options.known_lower;
-  out.limit = options.limit;
   const FileInterval bounds = to_files(run.report, pair);
   out.lower = bounds.lower;
   out.upper = is_surely_zero(run.report, pair) ? 0 : bounds.upper;
   out.status = status_of(run.report, out, watch.ended);
-  out.mesh_a = pair.a.counts;
-  out.mesh_b = pair.b.counts;
-  out.place_a = {pair.a.delta, pair.a.unit};
-  out.place_b = {pair.b.delta, pair.b.unit};
   out.workspace_bytes = run.workspace_bytes;
   out.host_memory_bytes = run.host_memory_bytes;
   out.preset = options.engine.preset.empty() ? "default" : options.engine.preset;
@@ -245,6 +259,7 @@ std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::t
 
 void Solver::make_ready(const EngineOptions& options) {
   const FloatEnvironment ours;
+  if (native_ != nullptr) return check_native(options);
   impl_->contexts->get(switches_of(options, impl_->device) & ~kSwitchMultiwave);
 }
 
@@ -396,7 +411,7 @@ std::vector<Report> Solver::distances(std::span<const PairView> meshes,
                                       const SolveOptions& options) {
   FloatEnvironment ours;
   check_options(options);
-  return impl_->distances(meshes, options_of(meshes, options, ours));
+  return run(meshes, options_of(meshes, options, ours));
 }
 
 Report Solver::distance(const Mesh& a, const Mesh& b, const SolveOptions& options) {
@@ -414,7 +429,7 @@ PreparedMesh Solver::prepare(Mesh b) {
   kept->frame = framed.frame;
   kept->displacement = framed.stored.displacement;
   kept->has_low = framed.stored.has_low;
-  kept->resident = impl_->runner.build({&kept->mesh, &framed.stored});
+  kept->resident = on_device().runner.build({&kept->mesh, &framed.stored});
   return PreparedMesh(std::move(kept));
 }
 
@@ -422,7 +437,7 @@ ClosestPoints Solver::closest(const PreparedMesh& b, std::span<const DVec3> poin
                               const ClosestGoesOn& goes_on) {
   FloatEnvironment ours;
   const PreparedMesh::Impl& kept = *b.impl_;
-  return find_closest_points(impl_->runner,
+  return find_closest_points(on_device().runner,
                              {.mesh = kept.mesh,
                               .frame = kept.frame,
                               .displacement = kept.displacement,
@@ -436,8 +451,9 @@ ClosestPoints Solver::closest(const Mesh& b, std::span<const DVec3> points,
   FloatEnvironment ours;
   check_mesh(b);
   const FramedMesh framed = frame_mesh(b);
-  const ResidentMesh resident = impl_->runner.build({&b, &framed.stored});
-  return find_closest_points(impl_->runner,
+  Runner& runner = on_device().runner;
+  const ResidentMesh resident = runner.build({&b, &framed.stored});
+  return find_closest_points(runner,
                              {.mesh = b,
                               .frame = framed.frame,
                               .displacement = framed.stored.displacement,
@@ -464,7 +480,7 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
   const std::vector<SolveOptions> heard = options_of(pairs, options, ours);
   std::vector<SolveOptions> of_there = heard;
   for (SolveOptions& of_it : of_there) of_it.time_limit_s /= 2;
-  std::vector<Report> there = impl_->distances(pairs, of_there);
+  std::vector<Report> there = run(pairs, of_there);
   const double elapsed_s = ms_since(start) / 1000;
   std::vector<SymmetricReport> both(pairs.size());
   std::vector<size_t> sought;
@@ -495,7 +511,7 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
       return listen(progress);
     };
   }
-  std::vector<Report> found = impl_->distances(back, of_back);
+  std::vector<Report> found = run(back, of_back);
   for (size_t i = 0; i < sought.size(); ++i) both[sought[i]].b_to_a = std::move(found[i]);
   return both;
 }
@@ -509,8 +525,8 @@ Report distance_since(Solver& solver, const PairView& pair, const SolveOptions& 
                       const std::function<double()>& known_since) {
   FloatEnvironment ours;
   const std::span<const PairView> alone(&pair, 1);
-  const std::vector<SolveOptions> run = options_of(alone, options, ours);
-  return std::move(solver.impl_->distances(alone, run, known_since)[0]);
+  const std::vector<SolveOptions> asked = options_of(alone, options, ours);
+  return std::move(solver.run(alone, asked, known_since)[0]);
 }
 
 void hold_pairs(Solver& solver, std::span<const PairView> pairs, const SolveOptions& options,
@@ -524,7 +540,7 @@ void hold_pairs(Solver& solver, std::span<const PairView> pairs, const SolveOpti
     run.time_limit_s = std::numeric_limits<double>::infinity();
     run.engine.cells = true;
   }
-  solver.impl_->hold(pairs, runs, use);
+  solver.on_device().hold(pairs, runs, use);
 }
 
 void hold_pair(Solver& solver, const PairView& pair, const SolveOptions& options,

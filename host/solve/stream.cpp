@@ -28,10 +28,12 @@ std::mutex& opening() {
   return *mutex;
 }
 
-/// Holds a device, which is opened and taken apart again one after the other with others.
+/// Holds a device, which is opened and taken apart again one after the other with others; none for
+/// kNative.
 class OpenDevice {
  public:
   explicit OpenDevice(const std::string& selector) {
+    if (selector == kNative) return;
     const std::lock_guard lock(opening());
     device_ = std::make_unique<Device>(DeviceRequest{.selector = selector});
   }
@@ -41,7 +43,11 @@ class OpenDevice {
   }
   OpenDevice(const OpenDevice&) = delete;
   OpenDevice& operator=(const OpenDevice&) = delete;
-  Device& operator*() { return *device_; }
+  const Device* get() const { return device_.get(); }
+  std::unique_ptr<Solver> solver(const StreamOptions& options) const {
+    if (device_ == nullptr) return std::make_unique<Solver>(NativeProcessor{options.threads});
+    return std::make_unique<Solver>(*device_, options.cache_folder);
+  }
 
  private:
   std::unique_ptr<Device> device_;
@@ -109,21 +115,22 @@ struct PairStream::Impl {
   // Runs one life of a device: until nothing waits (true), or it is lost.
   bool live(const std::string& selector, bool& was_open) {
     auto open = std::make_unique<OpenDevice>(selector);
-    if (!was_open) claim((**open).description());
-    if (!work_on(**open, was_open)) return false;
+    if (!work_on(*open, was_open)) return false;
     const std::lock_guard lock(mutex);
     idle.push_back(std::move(open));
     return true;
   }
 
-  bool work_on(Device& device, bool& was_open) {
-    WorkerDevice lanes{.device = device,
-                       .prepared = PreparedMeshes(device.description().memory_bytes / 8),
-                       .shape = shape_for(options, device.description())};
+  bool work_on(const OpenDevice& open, bool& was_open) {
     std::vector<std::unique_ptr<Solver>> solvers;
-    solvers.push_back(std::make_unique<Solver>(device, options.cache_folder));
+    solvers.push_back(open.solver(options));
+    const DeviceDescription& device = solvers[0]->description();
+    if (!was_open) claim(device);
+    WorkerDevice lanes{.device = open.get(),
+                       .prepared = PreparedMeshes(device.memory_bytes / 8),
+                       .shape = shape_for(options, device)};
     solvers[0]->make_ready(options.first);
-    note_open(device.description(), !was_open);
+    note_open(device, !was_open);
     was_open = true;
     const auto run = [&](Solver& solver) {
       const FloatEnvironment ours;
@@ -216,7 +223,8 @@ PairStream::PairStream(StreamOptions options, std::function<void(StreamResult&&)
 PairStream::~PairStream() = default;
 
 bool PairStream::push(StreamPair pair) {
-  std::optional<FramedPair> framed = impl_->frames.of(pair);
+  std::optional<FramedPair> framed;
+  if (impl_->options.devices[0] != kNative) framed = impl_->frames.of(pair);
   if (impl_->queue.put({.pair = std::move(pair), .tries = 0, .framed = std::move(framed)}))
     return true;
   impl_->check_alive();

@@ -36,7 +36,7 @@ constexpr unsigned kMostTries = 2;
 // lanes took half of the time of 3 on 16 cores (docs/log/metrics.md).
 LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device) {
   constexpr size_t kLanes = 3, kMostLanes = 8, kTogether = 16;
-  const bool on_cpu = device.type == "cpu";
+  const bool on_cpu = device.type == "cpu" || device.type == kNative;
   LaneShape shape;
   const size_t lanes =
       options.surveys ? std::clamp(thread_count() / 2, kLanes, kMostLanes) : kLanes;
@@ -67,7 +67,8 @@ void Worker::solve_all(Group& group) {
   std::vector<std::shared_ptr<const PreparedMesh>> prepared;
   for (WaitingPair& one : group) {
     check_meshes(one.pair);
-    prepared.push_back(one.pair.shares_b ? device_.prepared.get(solver_, one.pair.b) : nullptr);
+    const bool is_prepared = one.pair.shares_b && device_.device != nullptr;
+    prepared.push_back(is_prepared ? device_.prepared.get(solver_, one.pair.b) : nullptr);
     if (!one.pair.before) continue;
     one.pair.before(solver_, prepared.back().get(), one.pair);
     one.pair.before = {};  // a pair that is tried again is as it was left
@@ -102,7 +103,7 @@ void Worker::solve_all(Group& group) {
     std::vector<Report> found = solver_.distances(views);
     for (size_t i = 0; i < group.size(); ++i) results[i].a_to_b = std::move(found[i]);
   }
-  share_.count(0, gpu_s(results));
+  if (device_.device != nullptr) share_.count(0, gpu_s(results));
   for (size_t i = 0; i < group.size(); ++i) {
     results[i].number = group[i].pair.number;
     if (group[i].pair.beside) group[i].pair.beside(solver_, results[i]);
@@ -111,7 +112,7 @@ void Worker::solve_all(Group& group) {
 }
 
 bool Worker::find_lost() {
-  if (device_.device.is_lost()) device_.is_lost = true;
+  if (device_.device != nullptr && device_.device->is_lost()) device_.is_lost = true;
   return device_.is_lost;
 }
 

@@ -28,7 +28,7 @@ LaneShape shape_for(const StreamOptions& options, const DeviceDescription& devic
 
 /// The state that workers of one device share: it is opened anew when all have ended.
 struct WorkerDevice {
-  const Device& device;
+  const Device* device;  ///< null: the processor alone
   PreparedMeshes prepared;
   LaneShape shape;
   std::atomic<bool> is_lost = false;

@@ -25,7 +25,7 @@ class Doctor(unittest.TestCase):
         done = run("--json", *words, **environment)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         found = json.loads(done.stdout)
-        self.assertEqual(list(found), ["schema", "version", "system", "problem", "loader", "devices", *PARTS])
+        self.assertEqual(list(found), ["schema", "version", "system", "problem", "native", "loader", "devices", *PARTS])
         return found
 
     def test_a_device_that_can_be_trusted(self):
@@ -59,6 +59,17 @@ class Doctor(unittest.TestCase):
         found = self.found(5, VK_DRIVER_FILES="/nowhere/icd.json", VK_ICD_FILENAMES="/nowhere/icd.json")
         self.assertIn("no compatible driver; install", found["problem"])
         self.assertEqual((found["devices"], found["device"]), (None, None))
+
+    def test_the_processor_alone_needs_neither_driver_nor_loader(self):
+        hidden = {"VK_DRIVER_FILES": "/nowhere/icd.json", "VK_ICD_FILENAMES": "/nowhere/icd.json"}
+        found = self.found(0, "--device", "native", **hidden)
+        self.assertTrue(found["native"].startswith("native, "))
+        self.assertEqual(found["arithmetic"], {"passed": True, "fault": None})
+        self.assertTrue(found["self_check"]["passed"])
+        self.assertEqual(found["times"]["status"], "closed")
+        unused = ("problem", "loader", "devices", "device", "subgroup_operations")
+        self.assertEqual([found[part] for part in unused], [None] * len(unused))
+        self.assertEqual(self.found(5, **hidden)["native"], found["native"])
 
     def test_a_machine_without_the_device_that_is_named(self):
         found = self.found(5, "--device", "none such")

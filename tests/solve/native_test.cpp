@@ -2,7 +2,8 @@
 // distances and the witness by brute force in 113 bits; the same bits for any number of threads.
 #include "host/native/native.h"
 
-#include "host/native/problem.h"
+#include "host/native/arithmetic_check.h"
+#include "host/native/levels.h"
 // Its include guard keeps the float version of shaders/math out.
 #include <doctest/doctest.h>
 
@@ -75,7 +76,7 @@ NativeOptions options_for(const HardPair& hard, uint64_t seed) {
   // Most runs are as users run them; some are out of memory or cut short.
   const uint64_t way = seed % 16;
   if (way == 0) options.level_limit = 1 + static_cast<uint32_t>(seed / 16 % 4);
-  if (way == 1) options.most_candidates = 1 + seed / 16 % 64;
+  if (way == 1) options.memory_bytes = (1 + seed / 16 % 64) * native::kBytesOfCandidate;
   return options;
 }
 
@@ -202,6 +203,25 @@ TEST_CASE("scaled by a power of two, the ends scale exactly, down to subnormals"
     CHECK(s.lower == std::ldexp(r.lower, exponent));
     CHECK(s.upper == std::ldexp(r.upper, exponent));
   }
+}
+
+TEST_CASE("arithmetic that bounds may not rest on is seen") {
+  CHECK(native::arithmetic_fault().empty());
+  for (const int direction : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(direction);
+    const std::string fault = native::arithmetic_fault();
+    std::fesetround(FE_TONEAREST);
+    CHECK(fault == "sums are not rounded to the nearest double");
+  }
+#ifdef VKH_SSE
+  const unsigned before = _mm_getcsr();
+  for (const unsigned flag : {0x8000u, 0x40u}) {  // results; operands
+    _mm_setcsr(before | flag);
+    const std::string fault = native::arithmetic_fault();
+    _mm_setcsr(before);
+    CHECK(fault == "numbers under 2^-1022 are flushed to zero");
+  }
+#endif
 }
 
 TEST_CASE("the caller's rounding and flushing change no bit") {

@@ -1,4 +1,4 @@
-// host/solve/frame.cpp against exact rationals: no vertex is displaced by more than the frame
+// host/mesh/frame.cpp against exact rationals: no vertex is displaced by more than the frame
 // states, and lengths come back rounded outward, subnormal and huge coordinates included.
 #include "vkhausdorff/frame.h"
 

@@ -16,7 +16,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 ROOMS = {
     "shaders": ["math", "base", "bvh", "traversal", "wave", "paper", "report", "survey", "doctor"],
-    "host": ["base", "mesh", "read", "gpu", "solve", "native", "survey", "write", "simplify", "answer", "show", "batch", "app"],
+    "host": ["base", "mesh", "read", "gpu", "native", "solve", "survey", "write", "simplify", "answer", "show", "batch", "app"],
     "tests": ["verification/oracle", "shapes", "support", "verification/model", "verification/math", "unit", "files/malformed", "files",
               "engine", "solve", "page", "verification/check", "verification/faults", "app", "python", "platforms",
               "verification/fuzz", "verification/sanitize", "verification/proofs"],
@@ -28,9 +28,9 @@ BESIDE = {"host/python", "tests/package", "tests/verification/layer"}  # with bu
 PUBLIC = {
     "base": "error length limit needs_cpp20 note sha256",
     "gpu": "device device_description",
-    "mesh": "file_faces mesh mesh_transform polygon",
+    "mesh": "file_faces frame mesh mesh_transform polygon",
     "read": "mesh_io place read_limits",
-    "solve": "align closest_points engine_options face_gate frame report solve_options solver stream together verify",
+    "solve": "align closest_points engine_options face_gate report solve_options solver stream together verify",
     "survey": "cell_map certificate field metrics prover side survey",
     "write": "colour_map field_file",
     "simplify": "levels simplify",

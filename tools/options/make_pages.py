@@ -34,7 +34,7 @@ def short(text):
 
 def choices(option, command):
     use = uses_of(option, command)
-    return option["choices"] + ([use["more"]] if use["more"] else [])
+    return option["choices"] + use["more"]
 
 
 # bash
@@ -43,8 +43,8 @@ def choices(option, command):
 def bash_choices(option):
     """The words; those of some commands alone are printed where the command is one of these."""
     words = " ".join(option["choices"])
-    for more in sorted({use["more"] for use in option["uses"]} - {""}):
-        commands = " ".join(name for use in option["uses"] if use["more"] == more for name in use["of"])
+    for more in sorted({word for use in option["uses"] for word in use["more"]}):
+        commands = " ".join(name for use in option["uses"] if more in use["more"] for name in use["of"])
         words += f' $([[ " {commands} " != *" $command "* ]] || echo {more})'
     return words
 

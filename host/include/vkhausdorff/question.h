@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "vkhausdorff/device_description.h"
 #include "vkhausdorff/engine_options.h"
 #include "vkhausdorff/length.h"
 #include "vkhausdorff/limit.h"
@@ -92,8 +93,9 @@ struct Question : Stated {
   // The cost, and the devices.
   Budget budget;
   EngineOptions engine;
-  std::string device;            ///< DeviceRequest::selector
+  std::string device;            ///< DeviceRequest::selector, or kNative
   bool several_devices = false;  ///< allows several, such as "0,1" or "all"
+  uint64_t threads = 0;          ///< of kNative; 0: one for each core
   bool caches = true;            ///< keeps compiled pipelines in the user's folder
   bool verbose = false;          ///< the progress line has words of the method, too
 
@@ -102,6 +104,7 @@ struct Question : Stated {
     own.points = is_b ? points_b : points_a;
     return own;
   }
+  bool is_native() const { return device == kNative; }
   bool is_by_face() const { return !face_max_a.empty() || !face_max_b.empty() || face_limits_a; }
   bool asks_for_sides() const { return is_signed || max_sides; }
   bool asks_for_survey() const {

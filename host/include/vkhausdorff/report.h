@@ -72,7 +72,7 @@ struct WaveStats {
 struct Times {
   double upload_ms = 0;     ///< meshes to device buffers, frame included
   double hierarchy_ms = 0;  ///< GPU: B's BVH
-  double solve_ms = 0;      ///< GPU: seed and waves and report, without the BVH
+  double solve_ms = 0;      ///< GPU: seed and waves and report, without the BVH; natively, all
   double wall_ms = 0;       ///< host clock around Solver::distance
 };
 

@@ -16,6 +16,7 @@
 namespace vkh {
 
 struct FramedPair;
+class NativeRuns;     // host/solve/native_runs.h
 struct SurveyedPair;  // host/solve/cells.h
 
 /// Mesh B on the device with its BVH, for many A's. Made by a Solver, used by any Solver of the
@@ -50,6 +51,14 @@ struct PairView {
   const FramedPair* framed = nullptr;
 };
 
+/// The processor alone, in doubles, in place of a Vulkan device. It needs no loader and no driver.
+struct NativeProcessor {
+  size_t threads = 0;  ///< 0: one for each core. Answers have the same bits for any number
+};
+
+/// Describes it: "native, AMD EPYC, 2 threads", of type "native". Its index is no device's.
+DeviceDescription describe(const NativeProcessor& processor);
+
 /// Keeps pipelines and buffers of one device between runs. Calls from several threads run one after
 /// the other; Solvers of their own on the same Device run at once. Everything throws InputError
 /// that names the mesh, and a vertex or face of it, if a mesh is invalid (check_mesh), whatever it
@@ -65,6 +74,10 @@ class Solver {
   /// that either makes, both have.
   struct SharesPipelines {};
   Solver(SharesPipelines, const Solver& other);
+  /// A solver without a device, for distance(), distances(), symmetric() and symmetrics() of meshes
+  /// that are not prepared. All else throws UsageError: surveys, certificates, closest points,
+  /// switches.
+  explicit Solver(const NativeProcessor& processor);
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
@@ -72,6 +85,9 @@ class Solver {
   /// Creates the pipelines that a run with these options needs, which its first run does otherwise:
   /// the slow part of a start, so that meshes may be read meanwhile.
   void make_ready(const EngineOptions& options = {});
+  /// What runs; the device's own where there is one.
+  const DeviceDescription& description() const;
+  /// Throws UsageError where there is none.
   const Device& device() const;
 
   /// Encloses h(a, b).
@@ -117,7 +133,11 @@ class Solver {
   friend void hold_pairs(Solver&, std::span<const PairView>, const SolveOptions&,
                          const std::function<void(std::span<const SurveyedPair>)>&);
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::vector<Report> run(std::span<const PairView> pairs, const std::vector<SolveOptions>& options,
+                          const std::function<double()>& known_since = {});
+  Impl& on_device() const;
+  std::unique_ptr<Impl> impl_;                // null: on the processor alone
+  std::unique_ptr<const NativeRuns> native_;  // null: on a device
 };
 
 }  // namespace vkh

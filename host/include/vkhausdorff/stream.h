@@ -45,8 +45,9 @@ struct StreamPair {
 
 struct StreamOptions {
   /// The DeviceRequest::selector of each, which names one device; at least one. A device that takes
-  /// long to start gets no pairs until it has: see wait_until_open().
+  /// long to start gets no pairs until it has: see wait_until_open(). kNative: the processor.
   std::vector<std::string> devices = {""};
+  size_t threads = 0;                  ///< NativeProcessor::threads
   std::filesystem::path cache_folder;  ///< see Solver
   EngineOptions first;                 ///< its pipelines are made while the first pairs are read
   size_t together = 0;   ///< pairs side by side in one submission; 0: what pays on the device

@@ -20,7 +20,7 @@ NOTHING = Pair(constant(0), constant(0))
 
 
 def stored(unit, x):
-    """A coordinate as host/solve/frame.cpp stores it: both parts rounded to nearest."""
+    """A coordinate as host/mesh/frame.cpp stores it: both parts rounded to nearest."""
     if unit.flush or x == 0:
         return NOTHING
     m = unit.free("m", LOW / 2)

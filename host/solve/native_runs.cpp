@@ -1,0 +1,152 @@
+#include "host/solve/native_runs.h"
+
+#include <array>
+#include <chrono>
+#include <iterator>
+
+#include "host/base/parallel.h"
+#include "host/base/system.h"
+#include "host/mesh/same_faces.h"
+#include "host/native/native.h"
+#include "host/solve/run_report.h"
+#include "vkhausdorff/error.h"
+
+namespace vkh {
+namespace {
+
+/// Ends a native run as its options say, and remembers why.
+struct NativeWatch {
+  const SolveOptions& options;
+  size_t number;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  Status ended = Status::kCancelled;
+
+  double elapsed_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  bool operator()(const native::NativeProgress& now) {
+    const bool is_wanted = !options.progress || options.progress(progress_of(now));
+    const bool has_time = elapsed_s() <= options.time_limit_s;
+    ended = is_wanted ? Status::kTime : Status::kCancelled;
+    return is_wanted && has_time;
+  }
+
+  Progress progress_of(const native::NativeProgress& now) const {
+    return {.wave = now.levels,
+            .candidates = now.open,
+            .lower = now.lower,
+            .upper = now.upper,
+            .gap = gap_of(now.lower, now.upper, now.diagonal_a),
+            .pair = number};
+  }
+};
+
+native::NativeOptions native_options(const SolveOptions& options, size_t threads) {
+  native::NativeOptions out{.tolerance = options.tolerance,
+                            .tolerance_is_absolute = options.tolerance_is_absolute,
+                            .known_lower = options.known_lower,
+                            .limit = options.limit,
+                            .level_limit = options.wave_limit,
+                            .threads = threads};
+  if (options.memory_bytes != 0) out.memory_bytes = options.memory_bytes;
+  return out;
+}
+
+// A face of A that is a face of B may have a bound of 1e-14 all the same.
+bool is_surely_zero(const Report& r, const Mesh& a, const Mesh& b) {
+  if (r.lower > 0 || !(r.upper > 0) || a.delta > 0 || b.delta > 0) return false;
+  try {
+    return has_faces_of(b, a);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
+void fill_counts(const native::NativeReport& r, Report& out) {
+  constexpr const char* kNames[] = {"exact", "u1", "u2", "ha", "u3", "lower_raised", "precision"};
+  static_assert(std::size(kNames) == std::tuple_size_v<decltype(r.closed)>);
+  out.waves = r.levels;
+  out.candidates = r.candidates;
+  out.queries = r.queries;
+  out.peak_frontier = r.peak_candidates;
+  out.workspace_bytes = r.peak_bytes;
+  for (size_t i = 0; i < r.closed.size(); ++i) out.culled.push_back({kNames[i], r.closed[i]});
+}
+
+Status status_of(const native::NativeReport& r, const Report& out, Status ended) {
+  if (const std::optional<Status> reached = reached_by(out)) return *reached;
+  switch (r.status) {
+    case native::NativeStatus::kStopped:
+      return ended;
+    case native::NativeStatus::kLevels:
+      return Status::kWaves;
+    case native::NativeStatus::kMemory:
+      return Status::kMemory;
+    default:
+      return Status::kPrecision;
+  }
+}
+
+}  // namespace
+
+DeviceDescription describe(const NativeProcessor& processor) {
+  const size_t threads = processor.threads != 0 ? processor.threads : thread_count();
+  DeviceDescription d;
+  d.name = "native, " + processor_name() + ", " + std::to_string(threads) +
+           (threads == 1 ? " thread" : " threads");
+  d.type = kNative;
+  d.usable = true;
+  return d;
+}
+
+void refuse_natively(const std::string& what) {
+  throw UsageError("the native solver encloses distances alone: " + what +
+                   " needs a Vulkan device");
+}
+
+void check_native(const EngineOptions& options) {
+  if (options.cells) refuse_natively("a survey or a certificate");
+  if (options.closest) refuse_natively("a search for closest points");
+  if (options.coverage) refuse_natively("the check of coverage");
+  const bool has_preset = !options.preset.empty() && options.preset != "default";
+  if (has_preset || !options.enabled.empty() || !options.disabled.empty() || !options.certified)
+    refuse_natively("another preset or switch");
+}
+
+std::vector<Report> NativeRuns::distances(std::span<const PairView> pairs,
+                                          const std::vector<SolveOptions>& options) const {
+  std::vector<Report> reports;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    check_native(options[i].engine);
+    if (pairs[i].prepared != nullptr) refuse_natively("a prepared mesh");
+    reports.push_back(distance(pairs[i], options[i], i));
+  }
+  return reports;
+}
+
+Report NativeRuns::distance(const PairView& pair, const SolveOptions& options,
+                            size_t number) const {
+  const Mesh &a = pair.a, &b = pair.b;
+  NativeWatch watch{.options = options, .number = number};
+  native::NativeOptions asked = native_options(options, processor_.threads);
+  asked.goes_on = [&watch](const native::NativeProgress& now) { return watch(now); };
+  const native::NativeReport found = native::run_pair(a, b, asked);
+  Report out = report_on(a, b, options);
+  out.diagonal_a = found.diagonal_a;
+  out.tolerance = found.tolerance;
+  out.lower = found.lower;
+  out.upper = found.upper;
+  if (is_surely_zero(out, a, b)) out.upper = 0;
+  out.status = status_of(found, out, watch.ended);
+  out.device = description_;
+  fill_counts(found, out);
+  if (found.has_witness) {
+    const auto& [u, v, w] = found.witness.barycentric;
+    fill_witness({found.witness.face_a, found.witness.face_b, {u, v, w}}, a, b, out);
+  }
+  out.times.solve_ms = out.times.wall_ms = 1000 * watch.elapsed_s();
+  return out;
+}
+
+}  // namespace vkh

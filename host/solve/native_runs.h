@@ -1,0 +1,35 @@
+// The runs of a Solver without a device: h(A,B) in doubles on the processor (host/native).
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vkhausdorff/solver.h"
+
+namespace vkh {
+
+/// Throws UsageError: `what` is done on a device alone.
+[[noreturn]] void refuse_natively(const std::string& what);
+/// Refuses pipelines that only devices have: switches, surveys, closest points, coverage.
+void check_native(const EngineOptions& options);
+
+/// Threads may share it.
+class NativeRuns {
+ public:
+  explicit NativeRuns(const NativeProcessor& processor)
+      : processor_(processor), description_(describe(processor)) {}
+
+  const DeviceDescription& description() const { return description_; }
+  /// Does one pair after the other. `options`: one for each.
+  std::vector<Report> distances(std::span<const PairView> pairs,
+                                const std::vector<SolveOptions>& options) const;
+
+ private:
+  Report distance(const PairView& pair, const SolveOptions& options, size_t number) const;
+
+  NativeProcessor processor_;
+  DeviceDescription description_;
+};
+
+}  // namespace vkh

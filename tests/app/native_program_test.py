@@ -1,0 +1,193 @@
+"""--device native: the answers meet the Vulkan device's, and it takes neither a driver nor a loader.
+
+usage: native_program_test.py PROGRAM
+"""
+
+import json
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "platforms"))
+
+import meshes  # noqa: E402
+
+PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
+NO_DRIVER = {"VK_DRIVER_FILES": "/nowhere/icd.json", "VK_ICD_FILENAMES": "/nowhere/icd.json"}
+NATIVE = ("--device", "native")
+PASS, FAIL, USAGE, OPEN = 0, 1, 2, 3
+OF_THE_RUN = ("started", "times", "device", "arguments")
+
+
+def stripped(found):
+    """An answer without what two runs of it differ in."""
+    if isinstance(found, dict):
+        return {key: stripped(value) for key, value in found.items() if key not in OF_THE_RUN}
+    return [stripped(value) for value in found] if isinstance(found, list) else found
+
+
+def ends(found):
+    upper = found["interval"]["upper"]  # none before the meshes are read
+    return found["interval"]["lower"], math.inf if upper is None else upper
+
+
+def meet(x, y):
+    return max(ends(x)[0], ends(y)[0]) <= min(ends(x)[1], ends(y)[1])
+
+
+def bent(n, by):
+    """A sheet of 2 n * n faces that is no mesh's neighbour: its distances differ from place to place."""
+    at = [(x / n, y / n, by * math.sin(5 * x / n) * math.cos(7 * y / n)) for y in range(n + 1) for x in range(n + 1)]
+    faces = []
+    for y in range(n):
+        for x in range(n):
+            v = y * (n + 1) + x
+            faces += [(v, v + 1, v + n + 2), (v, v + n + 2, v + n + 1)]
+    return at, faces
+
+
+class Native(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.folder = pathlib.Path(scratch.name)
+        for name, mesh in {
+            "inner": meshes.sphere(24, 1.0), "outer": meshes.sphere(31, 1.125), "sheet": bent(24, 0.05), "flat": bent(9, 0.0),
+            "far": ([(x + 2.0**40, y, z) for x, y, z in bent(12, 0.05)[0]], bent(12, 0.05)[1]), "large": bent(300, 0.05), "wide": bent(230, 0.1),
+        }.items():
+            (cls.folder / f"{name}.ply").write_bytes(meshes.as_ply(*mesh))
+        (cls.folder / "points.xyz").write_text("".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in bent(24, 0.05)[0]))
+
+    def run_with(self, *words, code=None, **environment):
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=300, env=os.environ | environment)
+        if code is not None:
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def answer(self, *words, code=PASS, **environment):
+        return json.loads(self.run_with(*words, "--json", code=code, **environment).stdout)
+
+    def test_intervals_meet_the_device_s(self):
+        for a, b in (("inner", "outer"), ("outer", "inner"), ("sheet", "flat"), ("flat", "sheet"), ("far", "far")):
+            for more in ((), ("--symmetric",), ("--tol", "1e-9"), ("--part", "2/3")):
+                with self.subTest(a=a, b=b, more=more):
+                    words = ("distance", f"{a}.ply", f"{b}.ply", *more)
+                    native, device = self.answer(*words, *NATIVE, **NO_DRIVER), self.answer(*words)
+                    self.assertTrue(meet(native, device), (ends(native), ends(device)))
+                    self.assertEqual((native["status"], device["status"]), ("closed", "closed"))
+                    lower, upper = ends(native)
+                    self.assertLessEqual(upper - lower, native["tolerance"]["absolute"])
+
+    def test_a_mesh_is_0_from_itself(self):
+        found = self.answer("distance", "sheet.ply", "sheet.ply", "--symmetric", *NATIVE)
+        self.assertEqual(ends(found), (0, 0))
+
+    def test_points(self):
+        words = ("distance", "points.xyz", "flat.ply", "--points=a", "--tol", "1e-9")
+        native, device = self.answer(*words, *NATIVE), self.answer(*words)
+        self.assertTrue(meet(native, device), (ends(native), ends(device)))
+
+    def test_a_gate_s_codes(self):
+        for limit, code in (("0.1abs", PASS), ("0.025abs", FAIL)):  # the sheet is at most 0.05 from the flat one, and nearly that
+            for more in ((), ("--symmetric",)):
+                words = ("gate", "sheet.ply", "flat.ply", "--max", limit, *more)
+                native = self.run_with(*words, *NATIVE, code=code, **NO_DRIVER)
+                self.assertEqual(native.returncode, self.run_with(*words).returncode)
+        found = self.answer("distance", "sheet.ply", "flat.ply", *NATIVE)
+        between = sum(ends(found)) / 2
+        self.answer("gate", "sheet.ply", "flat.ply", "--max", f"{between!r}abs", "--tol", "0.1abs", *NATIVE, code=OPEN)
+
+    def test_a_gate_that_fails_ends_early(self):
+        whole = self.answer("distance", "large.ply", "wide.ply", *NATIVE)
+        early = self.answer("gate", "large.ply", "wide.ply", "--max", f"{ends(whole)[0] / 2}abs", *NATIVE, code=FAIL)
+        self.assertEqual(early["status"], "limit")
+        count = [found["directions"][0]["counts"]["candidates"] for found in (early, whole)]
+        self.assertLess(count[0], count[1] / 10)
+
+    def test_any_number_of_threads_gives_the_same_bits(self):
+        def bits(threads):
+            found = self.answer("distance", "outer.ply", "sheet.ply", "--symmetric", "--tol", "1e-9", *NATIVE, "--threads", str(threads))
+            self.assertTrue(found["device"]["name"].endswith(f", {threads} thread" + ("s" if threads > 1 else "")))
+            return stripped(found)
+
+        self.assertEqual(bits(1), bits(2))
+        self.assertEqual(bits(1), bits(16))
+
+    def test_the_device_is_named(self):
+        device = self.answer("distance", "inner.ply", "outer.ply", *NATIVE)["device"]
+        self.assertEqual(device["type"], "native")
+        self.assertRegex(device["name"], r"^native, .*, \d+ threads?$")
+        said = self.run_with("distance", "inner.ply", "outer.ply", *NATIVE, code=PASS).stdout
+        self.assertRegex(said, r"device     native, .*, \d+ threads?\n")
+
+    def test_what_needs_a_device_is_refused_before_the_files(self):
+        refused = {
+            "distance": ("--stats", "--signed", "--align", "--verify", "--preset=paper", "--enable=u4", "--disable=u3", "--field=f.ply",
+                         "--image=i.png", "--report=r.html", "--points-out=p.csv", "--figures-csv=f.csv", "--certificate=c", "--field-tol=0.1abs"),
+            "gate": ("--max=+1abs,-2abs", "--face-max=limits.txt --max=1abs", "--max=1abs --area=5%"),
+        }
+        for command, options in refused.items():
+            for option in options:
+                with self.subTest(option):
+                    done = self.run_with(command, "no.ply", "file.ply", *option.split(), *NATIVE, code=USAGE)
+                    self.assertRegex(done.stderr, "Vulkan device")
+                    self.assertEqual(done.stdout, "")
+        self.assertIn("Vulkan device", self.run_with("metrics", "no.ply", "file.ply", *NATIVE, code=USAGE).stderr)
+        self.assertIn("Vulkan device", self.run_with("simplify", "no.ply", "--max=1abs", "--out=o.ply", *NATIVE, code=USAGE).stderr)
+        self.assertIn("--threads", self.run_with("distance", "no.ply", "file.ply", "--threads=2", code=USAGE).stderr)
+        self.assertIn("native", self.run_with("distance", "inner.ply", "outer.ply", "--device=native,0", code=USAGE).stderr)
+
+    def test_budgets_end_with_a_true_interval(self):
+        large, spheres = ("large.ply", "wide.ply"), ("inner.ply", "outer.ply")
+        for pair, more, status in ((large, ("--waves", "1"), "waves"), (large, ("--waves", "3"), "waves"), (large, ("--time", "50ms"), "time"),
+                                   (spheres, ("--memory", "4K"), "memory")):
+            with self.subTest(more):
+                words = ("distance", *pair, "--tol", "1e-9", *NATIVE)
+                whole = self.answer(*words)
+                found = self.answer(*words, *more, code=OPEN)
+                self.assertEqual(found["status"], status)
+                self.assertTrue(meet(found, whole), (ends(found), ends(whole)))
+
+    @unittest.skipIf(os.name == "nt", "no signals")
+    def test_an_interrupt_ends_with_a_true_interval(self):
+        words = [PROGRAM, "distance", "large.ply", "wide.ply", "--tol", "1e-12", "--json", *NATIVE, "--threads", "1"]
+        run = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(0.25)
+        run.send_signal(signal.SIGINT)
+        since = time.monotonic()
+        out, error = run.communicate(timeout=60)
+        self.assertLess(time.monotonic() - since, 5)
+        found = json.loads(out)
+        if run.returncode != PASS:  # a fast machine is done by then
+            self.assertEqual((run.returncode, found["status"]), (OPEN, "cancelled"), error)
+
+    def test_a_batch(self):
+        rows = ["id,a,b,max", "one,inner.ply,outer.ply,1abs", "two,sheet.ply,flat.ply,0.01abs", "three,outer.ply,flat.ply,", "four,inner.ply,flat.ply,"]
+        (self.folder / "list.csv").write_text("\n".join(rows) + "\n")
+        for device, out in ((NATIVE, "native.jsonl"), ((), "device.jsonl")):
+            environment = NO_DRIVER if device else {}
+            self.run_with("batch", "list.csv", "--out", out, *device, code=FAIL, **environment)
+        native, device = ({(line := json.loads(text))["id"]: line for text in (self.folder / name).read_text().splitlines()} for name in ("native.jsonl", "device.jsonl"))
+        self.assertEqual(set(native), {"one", "two", "three", "four"})
+        for pair, found in native.items():
+            self.assertEqual(found["code"], device[pair]["code"])
+            self.assertTrue(meet(found, device[pair]), pair)
+
+    @unittest.skipUnless(sys.platform == "linux", "of glibc's linker")
+    def test_no_loader_is_looked_for(self):
+        def said(*words):
+            return self.run_with("distance", "inner.ply", "outer.ply", *words, code=PASS, LD_DEBUG="files").stderr
+
+        self.assertNotIn("libvulkan", said(*NATIVE))
+        self.assertIn("libvulkan", said())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,171 @@
+// A Solver without a device: what it does as one with a device does, and what it refuses.
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/shapes/shapes.h"
+#include "vkhausdorff/asking.h"
+#include "vkhausdorff/error.h"
+#include "vkhausdorff/face_gate.h"
+#include "vkhausdorff/solver.h"
+#include "vkhausdorff/stream.h"
+#include "vkhausdorff/together.h"
+
+using namespace vkh;
+using namespace vkh::test;
+
+namespace {
+
+const double kDistance = v_lid_distance();  // of the lid from the sheet
+
+/// Two tori that are nowhere alike: some levels of work.
+Mesh large() { return torus(1, 0.25, 120, 80); }
+Mesh larger() { return torus(1, 0.26, 110, 90); }
+
+bool encloses(const Report& r, double distance) {
+  return r.lower <= distance && distance <= r.upper;
+}
+
+}  // namespace
+
+TEST_CASE("a native solver encloses distances, both ways and many") {
+  Solver solver(NativeProcessor{2});
+  CHECK(solver.description().type == kNative);
+  CHECK(solver.description().name.ends_with(", 2 threads"));
+  const Mesh lid = v_lid(), sheet = v_sheet();
+  const Report r = solver.distance(lid, sheet);
+  CHECK(r.status == Status::kClosed);
+  CHECK(encloses(r, kDistance));
+  CHECK(r.has_witness);
+  CHECK(r.device.name == solver.description().name);
+  const SymmetricReport both = solver.symmetric(lid, sheet);
+  CHECK(both.a_to_b.lower == r.lower);
+  CHECK(encloses(solver.distance(sheet, lid), solver.distance(sheet, lid).lower));
+  CHECK(both.b_to_a.upper >= solver.distance(sheet, lid).lower);
+  const PairView pairs[] = {{.a = lid, .b = sheet}, {.a = sheet, .b = lid}};
+  const std::vector<Report> all = solver.distances(pairs);
+  CHECK(all.at(0).lower == r.lower);
+  CHECK(all.at(1).lower == solver.distance(sheet, lid).lower);
+}
+
+TEST_CASE("a limit and a known lower bound end a native run") {
+  Solver solver(NativeProcessor{});
+  SolveOptions options;
+  options.limit = {2 * kDistance, 2 * kDistance};
+  Report r = solver.distance(v_lid(), v_sheet(), options);
+  CHECK(verdict_of(r.lower, r.upper, r.limit) == Verdict::kWithin);
+  options.limit = {kDistance / 2, kDistance / 2};
+  r = solver.distance(v_lid(), v_sheet(), options);
+  CHECK((r.status == Status::kLimit || r.status == Status::kClosed));
+  CHECK(verdict_of(r.lower, r.upper, r.limit) == Verdict::kBeyond);
+  options.limit = {};
+  options.known_lower = 2 * kDistance;
+  r = solver.distance(v_lid(), v_sheet(), options);
+  CHECK(r.status == Status::kPruned);
+  CHECK(encloses(r, kDistance));
+}
+
+TEST_CASE("progress is true, on the caller's thread, and may end a native run") {
+  Solver solver(NativeProcessor{2});
+  const Mesh a = large(), b = larger();
+  SolveOptions options{.tolerance = 1e-9};
+  const Report whole = solver.distance(a, b, options);
+  REQUIRE(whole.status == Status::kClosed);
+  const std::thread::id home = std::this_thread::get_id();
+  size_t calls = 0, most = 1000;
+  options.progress = [&](const Progress& p) {
+    CHECK(std::this_thread::get_id() == home);
+    CHECK(p.lower <= whole.upper);
+    CHECK(p.upper >= whole.lower);
+    return ++calls < most;
+  };
+  const Report heard = solver.distance(a, b, options);
+  CHECK(calls > 3);
+  CHECK(heard.lower == whole.lower);
+  CHECK(heard.upper == whole.upper);
+  for (most = 1; most < 4; ++most) {
+    calls = 0;
+    const Report r = solver.distance(a, b, options);
+    CHECK(calls == most);
+    CHECK(r.status == Status::kCancelled);
+    CHECK(r.lower <= whole.upper);
+    CHECK(r.upper >= whole.lower);
+  }
+  options.progress = [](const Progress&) -> bool { throw std::runtime_error("no more"); };
+  CHECK_THROWS_WITH_AS(solver.distance(a, b, options), "no more", std::runtime_error);
+  options.progress = {};
+  CHECK(solver.distance(a, b, options).lower == whole.lower);
+}
+
+TEST_CASE("budgets end a native run with a true interval") {
+  Solver solver(NativeProcessor{2});
+  const Mesh a = large(), b = larger();
+  const Report whole = solver.distance(a, b, {.tolerance = 1e-9});
+  const auto status_with = [&](SolveOptions options) {
+    options.tolerance = 1e-9;
+    const Report r = solver.distance(a, b, options);
+    CHECK(r.lower <= whole.upper);
+    CHECK(r.upper >= whole.lower);
+    return r.status;
+  };
+  CHECK(status_with({.time_limit_s = 0}) == Status::kTime);
+  CHECK(status_with({.wave_limit = 2}) == Status::kWaves);
+  CHECK(status_with({.memory_bytes = 4096}) == Status::kMemory);
+  CHECK(status_with({}) == Status::kClosed);
+}
+
+TEST_CASE("a native stream, and a question of C++") {
+  std::vector<StreamResult> results(2);
+  PairStream stream({.devices = {std::string(kNative)}, .threads = 1},
+                    [&](StreamResult&& r) { results.at(r.number) = std::move(r); });
+  const auto lid = std::make_shared<const Mesh>(v_lid()),
+             sheet = std::make_shared<const Mesh>(v_sheet());
+  for (size_t i = 0; i < 2; ++i)
+    CHECK(stream.push({.number = i, .a = lid, .b = sheet, .shares_b = true, .symmetric = i == 1}));
+  stream.finish();
+  for (const StreamResult& r : results) {
+    CHECK(r.error == nullptr);
+    CHECK(encloses(r.a_to_b, kDistance));
+  }
+  CHECK(results[1].b_to_a);
+
+  Solver solver(NativeProcessor{});
+  Solver* const solvers[] = {&solver};
+  const auto read = [](const Mesh& mesh) {
+    ReadMesh out;
+    static_cast<Mesh&>(out) = mesh;
+    return std::make_shared<const ReadMesh>(std::move(out));
+  };
+  CHECK(encloses(Asking({}, read(*lid), read(*sheet), solvers).answer().a_to_b, kDistance));
+  Question figures;
+  figures.statistics = true;
+  CHECK_THROWS_AS(Asking(figures, read(*lid), read(*sheet), solvers).answer(), UsageError);
+  figures.device = kNative;
+  CHECK_THROWS_AS(Asking(figures, read(*lid), read(*sheet), solvers), UsageError);
+}
+
+TEST_CASE("a native solver refuses what only devices do") {
+  Solver solver(NativeProcessor{}), other(NativeProcessor{});
+  const Mesh lid = v_lid(), sheet = v_sheet();
+  CHECK_THROWS_AS(solver.device(), UsageError);
+  CHECK_THROWS_AS(solver.prepare(sheet), UsageError);
+  const DVec3 point{0, 0, 0};
+  CHECK_THROWS_AS(solver.closest(sheet, {&point, 1}), UsageError);
+  const Limit limit{1, 1};
+  const std::vector<Limit> limits(lid.faces.size(), limit);
+  CHECK_THROWS_AS(gate_faces(solver, lid, sheet, limits, {}), UsageError);
+  Solver* const solvers[] = {&solver, &other};
+  CHECK_THROWS_AS(distance_over(solvers, lid, sheet), UsageError);
+  SolveOptions options;
+  options.engine.preset = "paper";
+  CHECK_THROWS_AS(solver.distance(lid, sheet, options), UsageError);
+  options.engine = {.disabled = {"u3"}};
+  CHECK_THROWS_AS(solver.distance(lid, sheet, options), UsageError);
+  CHECK_THROWS_AS(solver.make_ready({.cells = true}), UsageError);
+  CHECK_NOTHROW(solver.make_ready({.fine = true}));
+  CHECK_THROWS_AS(solver.distance(lid, Mesh{}), InputError);
+  Solver shares(Solver::SharesPipelines{}, solver);
+  CHECK(encloses(shares.distance(lid, sheet), kDistance));
+}
