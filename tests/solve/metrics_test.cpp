@@ -44,7 +44,8 @@ Metrics metrics_between(const Mesh& a, const Mesh& b, double percentile,
   question.tolerance = {.requested = "1e-4", .number = 1e-4};
   question.metrics = MetricsOptions{.percentile = percentile, .normals = normals};
   for (const double band : bands)
-    question.bands.push_back({.number = band, .of = Length::Of::kFiles, .is_double = true});
+    question.bands.push_back(
+        {.requested = "", .number = band, .of = Length::Of::kFiles, .is_double = true});
   question.budget.effort = effort;
   return *answered(question, a, b).metrics;
 }

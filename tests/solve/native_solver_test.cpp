@@ -70,7 +70,8 @@ TEST_CASE("a limit and a known lower bound end a native run") {
 TEST_CASE("progress is true, on the caller's thread, and may end a native run") {
   Solver solver(NativeProcessor{2});
   const Mesh a = large(), b = larger();
-  SolveOptions options{.tolerance = 1e-9};
+  SolveOptions options;
+  options.tolerance = 1e-9;
   const Report whole = solver.distance(a, b, options);
   REQUIRE(whole.status == Status::kClosed);
   const std::thread::id home = std::this_thread::get_id();
@@ -102,28 +103,40 @@ TEST_CASE("progress is true, on the caller's thread, and may end a native run") 
 TEST_CASE("budgets end a native run with a true interval") {
   Solver solver(NativeProcessor{2});
   const Mesh a = large(), b = larger();
-  const Report whole = solver.distance(a, b, {.tolerance = 1e-9});
-  const auto status_with = [&](SolveOptions options) {
-    options.tolerance = 1e-9;
+  SolveOptions plain;
+  plain.tolerance = 1e-9;
+  const Report whole = solver.distance(a, b, plain);
+  const auto status_with = [&](const std::function<void(SolveOptions&)>& limit) {
+    SolveOptions options = plain;
+    limit(options);
     const Report r = solver.distance(a, b, options);
     CHECK(r.lower <= whole.upper);
     CHECK(r.upper >= whole.lower);
     return r.status;
   };
-  CHECK(status_with({.time_limit_s = 0}) == Status::kTime);
-  CHECK(status_with({.wave_limit = 2}) == Status::kWaves);
-  CHECK(status_with({.memory_bytes = 4096}) == Status::kMemory);
-  CHECK(status_with({}) == Status::kClosed);
+  CHECK(status_with([](SolveOptions& o) { o.time_limit_s = 0; }) == Status::kTime);
+  CHECK(status_with([](SolveOptions& o) { o.wave_limit = 2; }) == Status::kWaves);
+  CHECK(status_with([](SolveOptions& o) { o.memory_bytes = 4096; }) == Status::kMemory);
+  CHECK(status_with([](SolveOptions&) {}) == Status::kClosed);
 }
 
 TEST_CASE("a native stream, and a question of C++") {
   std::vector<StreamResult> results(2);
-  PairStream stream({.devices = {std::string(kNative)}, .threads = 1},
-                    [&](StreamResult&& r) { results.at(r.number) = std::move(r); });
+  StreamOptions native;
+  native.devices = {std::string(kNative)};
+  native.threads = 1;
+  PairStream stream(native, [&](StreamResult&& r) { results.at(r.number) = std::move(r); });
   const auto lid = std::make_shared<const Mesh>(v_lid()),
              sheet = std::make_shared<const Mesh>(v_sheet());
-  for (size_t i = 0; i < 2; ++i)
-    CHECK(stream.push({.number = i, .a = lid, .b = sheet, .shares_b = true, .symmetric = i == 1}));
+  for (size_t i = 0; i < 2; ++i) {
+    StreamPair pair;
+    pair.number = i;
+    pair.a = lid;
+    pair.b = sheet;
+    pair.shares_b = true;
+    pair.symmetric = i == 1;
+    CHECK(stream.push(pair));
+  }
   stream.finish();
   for (const StreamResult& r : results) {
     CHECK(r.error == nullptr);
