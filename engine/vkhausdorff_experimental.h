@@ -86,8 +86,8 @@ typedef struct VkhSurveySplit {
   uint32_t bin;   /* cells of larger bins are split, `above` of them, */
   uint32_t ties;  /* and the first so many of this bin, */
   uint32_t above;
-  uint32_t parts; /* into halves, 2, or halves of halves, 4. There must be room for all parts but the
-                   * first, and no more than a quarter of the capacity is split */
+  uint32_t parts; /* into halves, 2, or halves of halves, 4. There must be room for all parts but
+                   * the first, and no more than a quarter of the capacity is split */
 } VkhSurveySplit;
 VKH_API void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhProblem* problem, const VkhSurvey* survey,

@@ -15,6 +15,7 @@ CELL = "shaders/report/cell.h"
 PARTS = "shaders/math/parts.h"
 WIDE = "shaders/survey/wide.h"
 TALLY = "shaders/survey/tally.h"
+SCORE = "shaders/survey/score.h"
 LOWER = "shaders/math/lower.h"
 FRAME = "host/mesh/frame.cpp"
 LENGTH = "host/base/length.cpp"
@@ -184,6 +185,10 @@ ROWS = [
     row("weighed_up's weight", TALLY, "uvec2 down = weighed(w.up, value, unit);", ["uvec2 down = weighed(w.down, value, unit);"], ON_TALLY),
     row("tally_bounds' square", TALLY, "round_up(b.highest * t.mean_upper, 1.0f)", ["0.99f * b.highest * t.mean_upper"], ON_TALLY),
     row("lowest_of", TALLY, "max(b.below.least, 0.0f)", ["max(b.below.most, 0.0f)"], ON_TALLY),
+    row("widest's corners", SCORE, "max(b.upper_b - b.lower_b, b.upper_c - b.lower_c)", ["b.upper_b - b.lower_b"], ON_TALLY),
+    row("widest's lowest", SCORE, "return min(affine, b.highest - lowest);", ["return min(affine, 0.5f * (b.highest - lowest));"], ON_TALLY),
+    row("has_quarters' bits", SCORE, "& 3u) == 0u", ["& 1u) == 0u"], ON_TALLY),
+    row("half_points' corner", SCORE, "(split - 1u) % 3u, 3u, half_side", ["split % 3u, 3u, half_side"], ON_TALLY),
 
     # parts.h
     counts("shortened", PARTS, "1.0f - {8.0f} * kUlp, norm_up(r)", ON_PARTS, steps=[4.0, 0.0, -32.0]),

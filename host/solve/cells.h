@@ -52,8 +52,8 @@ class SurveyCells {
   /// Splits each chosen cell into parts, which have no bounds of their own until bound(); returns
   /// false, and does nothing, if there is no memory for them. It need not wait.
   virtual bool split(const SurveyChoice& choice) = 0;
-  /// Bounds new cells, which are the parts of those that were split, or A's faces. `wait`: false if more
-  /// of them or a tally follow.
+  /// Bounds new cells, which are the parts of those that were split, or A's faces. `wait`: false if
+  /// more of them or a tally follow.
   virtual void bound(size_t first, size_t count, bool wait) = 0;
   /// Adds up all cells at the plan's edges. Every distance is below 2^(unit - 127).
   virtual const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit) = 0;

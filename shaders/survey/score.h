@@ -43,8 +43,8 @@ VKH_FN uint cell_split(Root root, Bary3 at) {
   return choose(can_split(at, code), code, kSplitNone);
 }
 
-// Whether the cell can be split into four at any edges: the middles of its edges, and of theirs, are
-// dyadic points where all corners are multiples of four. It needs no vertex of A.
+// Whether the cell can be split into four at any edges: the middles of its edges, and of theirs,
+// are dyadic points where all corners are multiples of four. It needs no vertex of A.
 VKH_FN bool has_quarters(Bary3 t) {
   uvec2 any = uvec2(t.a.x | t.b.x | t.c.x, t.a.y | t.b.y | t.c.y);
   return ((any.x | any.y) & 3u) == 0u;

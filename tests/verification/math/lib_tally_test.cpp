@@ -3,10 +3,12 @@
 #include <doctest/doctest.h>
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "shaders/survey/score.h"
 #include "shaders/survey/tally.h"
@@ -163,6 +165,56 @@ TEST_CASE("score.h: a cell is split into four of a quarter each, as long as the 
   }
   CHECK(lib::cell_split(thick, lib::whole_root()) == lib::bisection_code(0, 2, 1));
   CHECK(lib::cell_split(thin, lib::whole_root()) != lib::kSplitMidpoint);
+}
+
+TEST_CASE("score.h: halves are the two halves of the quarters, and quarters need no vertex") {
+  const lib::Root root =
+      lib::make_root(lib::two({0, 0, 0}), lib::two({1, 0, 0}), lib::two({0.5f, 0.01f, 0}));
+  lib::Bary3 at = lib::whole_root();
+  for (unsigned depth = 0; lib::has_quarters(at); ++depth) {
+    const uint32_t code = lib::cell_split(root, at);
+    REQUIRE(code != lib::kSplitNone);
+    for (uint32_t x = 0; x < 27; ++x)
+      CHECK(lib::can_split(at, lib::bisection_code(x % 3, x / 3 % 3, x / 9)));
+    const lib::Bary6 points = lib::split_points(at, code);
+    for (uint32_t k = 0; k < 2; ++k) {
+      const lib::Bary3 half = lib::child_of(points, lib::half_points(code, k));
+      CHECK(lib::halvings_of(half) == 2 * depth + 1);
+      const uint32_t inner = k == 0 ? (code - 1) / 3 % 3 : (code - 1) / 9;
+      const lib::Bary6 of_half = lib::split_points(half, lib::bisection_code(inner, 0, 0));
+      for (uint32_t side = 0; side < 2; ++side) {
+        const lib::Bary3 quarter = lib::child_of(points, lib::child_points(code, 2 * k + side));
+        const lib::Bary3 same = lib::child_of(of_half, lib::bisected({0, 1, 2}, inner, 3, side));
+        CHECK(quarter.a == same.a);
+        CHECK(quarter.b == same.b);
+        CHECK(quarter.c == same.c);
+      }
+    }
+    at = lib::child_of(points, lib::child_points(code, 3));
+  }
+  CHECK_FALSE(lib::has_quarters(at));
+}
+
+TEST_CASE("score.h: what is drawn of a cell and a distance are no farther apart than it is wide") {
+  Random random(5);
+  for (int i = 0; i < 20000; ++i) {
+    const auto any = [&] { return static_cast<float>(random.range(-1, 3)); };
+    gpu::CellBounds b{};
+    b.lower_a = any(), b.lower_b = any(), b.lower_c = any();
+    b.upper_a = std::max(b.lower_a, any()), b.upper_b = std::max(b.lower_b, any());
+    b.upper_c = std::max(b.lower_c, any());
+    const float lowest = std::max(std::min({b.lower_a, b.lower_b, b.lower_c}), 0.0f);
+    b.highest = lowest + static_cast<float>(random.range(0, 3));
+    // At a corner both lie between the same two numbers, if there are any.
+    const auto wide = static_cast<double>(lib::widest(b)) * (1 + 0x1p-23);
+    for (const auto& [lower, upper] :
+         {std::pair{b.lower_a, b.upper_a}, std::pair{b.lower_b, b.upper_b},
+          std::pair{b.lower_c, b.upper_c}}) {
+      const float from = std::max(lower, lowest), to = std::min(upper, b.highest);
+      if (from <= to) CHECK(wide >= static_cast<double>(to) - static_cast<double>(from));
+    }
+    CHECK(wide <= (static_cast<double>(b.highest) - static_cast<double>(lowest)) * (1 + 0x1p-21));
+  }
 }
 
 }  // namespace
