@@ -91,12 +91,6 @@ Scores score_undecided(const CellStore& store, const Areas& areas,
   });
 }
 
-double largest_upper(const CellStore& store, const SurveyedPair& pair) {
-  const std::vector<float> highest = store.highest_of_faces();
-  const float most = *std::max_element(highest.begin(), highest.end());
-  return in_files(pair, {0, static_cast<double>(most)}).upper;
-}
-
 double least_width(const SurveyedPair& pair) {
   return std::max(1e-6 * pair.frame.to_frame(diagonal(bounding_box(pair.a))), 3 * kFloor);
 }

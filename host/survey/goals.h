@@ -72,9 +72,6 @@ Scores score_undecided(const CellStore& store, const Areas& areas,
 /// Converts lengths in the frame, on the stored meshes, to the files' units.
 Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);
 
-/// The largest upper bound of any cell, in the files' units.
-double largest_upper(const CellStore& store, const SurveyedPair& pair);
-
 /// The width in the frame that is enough for any figure: a millionth of A's diagonal, or what
 /// floats leave.
 double least_width(const SurveyedPair& pair);
