@@ -568,7 +568,8 @@ void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        const VkhSurvey* survey, const VkhSurveyBound* bound, VkhProfile* profile) {
   const uint64_t end = uint64_t{bound->first} + bound->count;
-  const uint64_t cells = bound->live + end - end / bound->parts * (bound->live > 0 ? 1 : 0);
+  const uint64_t parents = bound->parts > 1 ? end / bound->parts : 0;
+  const uint64_t cells = bound->live + end - parents;
   vkh::SurveyCall call(context, commandBuffer, *problem, *survey, cells);
   if (!call.records() || !call.rules.profile(profile) || bound->count == 0) return;
   vkh::Recorder rec(*context, commandBuffer, profile);

@@ -34,7 +34,7 @@ layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 uint place_of(uint i) {
   if (push.given != kSurveyCells) return i;
   uint item = push.first + i;
-  if (push.parts == 1u) return item;
+  if (push.parts <= 1u) return item;
   uint rank = item / push.parts;
   uint part = item - rank * push.parts;
   return part == 0u ? parents[rank] : push.live + (push.parts - 1u) * rank + part - 1u;
