@@ -1,9 +1,11 @@
 #include "host/solve/run_report.h"
 
 #include <algorithm>
+#include <new>
 
 #include "host/base/rounding.h"
 #include "host/mesh/closest.h"
+#include "host/mesh/same_faces.h"
 #include "shaders/gpu_types.h"
 
 namespace vkh {
@@ -24,6 +26,15 @@ std::optional<Status> reached_by(const Report& r) {
   if (r.known_lower > 0 && is_within(r.known_lower, r.upper, r.tolerance)) return Status::kPruned;
   if (is_decided(r.lower, r.upper, r.limit)) return Status::kLimit;
   return std::nullopt;
+}
+
+bool is_within_faces_of(const Mesh& a, const Mesh& b) {
+  if (a.delta > 0 || b.delta > 0) return false;
+  try {
+    return has_faces_of(b, a);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
 }
 
 void fill_counts(const RunOutput& run, const Frame& frame, Report& out) {

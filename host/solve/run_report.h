@@ -12,6 +12,11 @@ Report report_on(const Mesh& a, const Mesh& b, const SolveOptions& options);
 /// The status that a report's interval gives it, whatever ended the run; nothing: it is open.
 std::optional<Status> reached_by(const Report& r);
 
+/// Whether every face of A, as given, is a face of B, so that h is 0 whatever a run found. A mesh
+/// that is off its exact place does not count as given. False, too, if there is no memory to tell:
+/// the answer that there is must not be lost to this.
+bool is_within_faces_of(const Mesh& a, const Mesh& b);
+
 void fill_counts(const RunOutput& r, const Frame& frame, Report& out);
 void fill_stages(const RunOutput& run, Report& out);
 void fill_witness(const VkhReport& r, const Mesh& a, const Mesh& b, Report& out);

@@ -11,7 +11,6 @@
 #include "host/base/float_environment.h"
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
-#include "host/mesh/same_faces.h"
 #include "host/solve/closest_search.h"
 #include "host/solve/coverage.h"
 #include "host/solve/held_pairs.h"
@@ -32,17 +31,11 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Called where the device found the stored meshes' h to be 0, and only the displacement by storing
-// is left: is every face of A, as given, a face of B? Then h is 0, whatever the device did. A mesh
-// that is off its exact place does not count as given.
+// Only the displacement by storing may be left, where the device found the stored meshes' h to be
+// 0.
 bool is_surely_zero(const VkhReport& r, const Pair& pair) {
-  if (r.base != 0 || r.upperAbove != 0 || !(pair.displacement > 0)) return false;
-  if (pair.a.delta > 0 || pair.b.delta > 0) return false;
-  try {
-    return has_faces_of(pair.b, pair.a);
-  } catch (const std::bad_alloc&) {
-    return false;  // the answer that there is must not be lost to this
-  }
+  const bool is_zero_as_stored = r.base == 0 && r.upperAbove == 0 && pair.displacement > 0;
+  return is_zero_as_stored && is_within_faces_of(pair.a, pair.b);
 }
 
 Status status_of(const VkhReport& r, const Report& out, Status ended) {

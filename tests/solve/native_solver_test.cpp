@@ -67,11 +67,16 @@ TEST_CASE("a limit and a known lower bound end a native run") {
   CHECK(encloses(r, kDistance));
 }
 
+SolveOptions fine() {
+  SolveOptions options;
+  options.tolerance = 1e-9;
+  return options;
+}
+
 TEST_CASE("progress is true, on the caller's thread, and may end a native run") {
   Solver solver(NativeProcessor{2});
   const Mesh a = large(), b = larger();
-  SolveOptions options;
-  options.tolerance = 1e-9;
+  SolveOptions options = fine();
   const Report whole = solver.distance(a, b, options);
   REQUIRE(whole.status == Status::kClosed);
   const std::thread::id home = std::this_thread::get_id();
@@ -103,11 +108,9 @@ TEST_CASE("progress is true, on the caller's thread, and may end a native run") 
 TEST_CASE("budgets end a native run with a true interval") {
   Solver solver(NativeProcessor{2});
   const Mesh a = large(), b = larger();
-  SolveOptions plain;
-  plain.tolerance = 1e-9;
-  const Report whole = solver.distance(a, b, plain);
+  const Report whole = solver.distance(a, b, fine());
   const auto status_with = [&](const std::function<void(SolveOptions&)>& limit) {
-    SolveOptions options = plain;
+    SolveOptions options = fine();
     limit(options);
     const Report r = solver.distance(a, b, options);
     CHECK(r.lower <= whole.upper);
