@@ -484,8 +484,8 @@ struct SurveyPlan {
   uint moments;        // 1: a tally adds up means and mean squares, too
   float of_whole;      // 1 over the weight of all faces
   float mean, square;  // what a width of the mean, and of the mean square, scores; 0: nothing
-  // Of a map: a cell scores by what its width exceeds, if it has more than so much of the area, and
-  // is not all farther than `map_most`. 0: there is no map.
+  // A map scores a cell by its width over `map_step`, if it has more than `map_area` of the area
+  // and is not all farther than `map_most`. 0: there is no map.
   float map_step, map_area, map_most;
   SurveyEdge edges[kSurveyEdges];  // of the tally
   SurveyEdge open[kSurveyOpen];    // area that is undecided there scores

@@ -6,7 +6,7 @@
 
 namespace vkh::native {
 
-/// What is wrong with this thread's arithmetic, for people; empty: nothing was found.
+/// Says what is wrong with this thread's arithmetic, for people; empty: nothing was found.
 std::string arithmetic_fault();
 
 }  // namespace vkh::native

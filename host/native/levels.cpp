@@ -38,7 +38,7 @@ Levels::Levels(const Problem& problem, const Goal& goal, const NativeOptions& op
       most_(std::max<size_t>(options.memory_bytes / kBytesOfCandidate, 1)),
       pool_(options.threads, std::move(keep_going), "the run was ended") {}
 
-// What was given up keeps the upper end where it is: nothing below it needs refining.
+// A candidate that was given up keeps the upper end where it is: none below it needs refining.
 double Levels::threshold() const {
   const double near = max(total_.best.distance, goal_.known_lower) + goal_.tolerance;
   return max(max(near, goal_.within), given_up_);

@@ -9,8 +9,8 @@
 
 namespace vkh::native {
 
-/// What need not be refined, in the frame: what is within the tolerance of the best sample or of a
-/// known lower bound, and what is within a limit.
+/// Tells which candidates need no refining, in the frame: those within the tolerance of the best
+/// sample or of a known lower bound, and those within a limit.
 struct Goal {
   double tolerance;
   double known_lower;

@@ -27,7 +27,7 @@ struct NativeOptions {
       0;             ///< a distance that the answer need not resolve below; in the files' unit
   Limit limit = {};  ///< the run ends once the distance is proven to be within or beyond it
   uint32_t level_limit = std::numeric_limits<uint32_t>::max();
-  /// What candidates may take. Where they would take more, a level refines those with the smallest
+  /// The memory for candidates. Where they would take more, a level refines those with the smallest
   /// u and the others wait; where even that is too much, the smallest u are given up.
   uint64_t memory_bytes = uint64_t{3} << 30;
   size_t threads = 1;  ///< 0: one for each core

@@ -17,7 +17,7 @@ struct Tallied {
   double lowest = 0, highest = 0;  ///< no distance is less, or more
 };
 
-/// What cells are split for.
+/// A reason to split cells.
 class WaveGoals {
  public:
   virtual ~WaveGoals() = default;
@@ -36,7 +36,7 @@ class WaveGoals {
   virtual gpu::SurveyPlan plan(double whole) const = 0;
   /// So much of all scores is worth a wave's splits.
   virtual double part() const = 0;
-  /// Whether a wave is worth it that splits so many of the cells, all that score.
+  /// Whether a wave pays that splits so many of so many cells.
   virtual bool is_worth(size_t, size_t) const { return true; }
   /// The parts that a cell is split into.
   virtual uint32_t parts() const { return 4; }

@@ -85,7 +85,7 @@ class Solver {
   /// Creates the pipelines that a run with these options needs, which its first run does otherwise:
   /// the slow part of a start, so that meshes may be read meanwhile.
   void make_ready(const EngineOptions& options = {});
-  /// What runs; the device's own where there is one.
+  /// Describes what runs: the device, or the processor.
   const DeviceDescription& description() const;
   /// Throws UsageError where there is none.
   const Device& device() const;
