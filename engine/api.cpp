@@ -548,7 +548,8 @@ void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 
 void vkhCmdScoreSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        const VkhSurvey* survey, const VkhSurveyScore* score) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, score->cells);
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+                             uint64_t{score->first} + score->count);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
   vkh::record_survey_score(rec, call.p, call.streams, *score);
@@ -578,7 +579,8 @@ void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 
 void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        const VkhSurvey* survey, const VkhSurveyTally* tally) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, tally->cells);
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+                             uint64_t{tally->first} + tally->count);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
   vkh::record_survey_tally(rec, call.p, call.streams, *tally);

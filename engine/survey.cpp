@@ -64,10 +64,11 @@ void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& s
 void record_survey_score(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyScore& score) {
   const auto scope = rec.scope("survey score");
-  const uint32_t groups = groups_for(score.cells);
+  const uint32_t groups = groups_for(score.count);
   rec.copy({score.planBuffer, score.planOffset, sizeof(gpu::SurveyPlan)}, survey.plan);
   rec.fill(survey.histogram, 0, Order::kIndependent);
-  const SurveyGiven given(p, survey, gpu::SurveyPush{score.cells, groups, 0, 0});
+  const SurveyGiven given(p, survey,
+                          gpu::SurveyPush{score.first, score.first + score.count, groups, 0, 0});
   rec.run<k::SurveyScore>(given, Groups{groups});
   rec.copy(survey.histogram, {score.histogramBuffer, score.histogramOffset, survey.histogram.size});
 }
@@ -103,11 +104,13 @@ void record_survey_bound(Recorder& rec, const Problem& p, const SurveyStreams& s
 void record_survey_tally(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyTally& tally) {
   const auto scope = rec.scope("survey tally");
-  const uint32_t groups = groups_for(tally.cells);
+  const uint32_t groups = groups_for(tally.count);
   const int square_unit = 2 * tally.unit - 127;
   rec.copy({tally.planBuffer, tally.planOffset, sizeof(gpu::SurveyPlan)}, survey.plan);
   rec.fill(survey.table, 0, Order::kIndependent);
-  const SurveyGiven given(p, survey, gpu::SurveyPush{tally.cells, groups, tally.unit, square_unit});
+  const SurveyGiven given(
+      p, survey,
+      gpu::SurveyPush{tally.first, tally.first + tally.count, groups, tally.unit, square_unit});
   rec.run<k::SurveyTally>(given, Groups{groups});
   rec.copy(survey.table, {tally.tableBuffer, tally.tableOffset, sizeof(gpu::SurveyTable)});
 }

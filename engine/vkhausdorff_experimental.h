@@ -70,13 +70,15 @@ VKH_API void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer
                                const VkhSurveyBegin* begin);
 
 typedef struct VkhSurveyScore {
-  uint32_t cells;      /* that there are */
-  VkBuffer planBuffer; /* SurveyPlan; usage TRANSFER_SRC */
+  uint32_t first, count; /* of the cells */
+  VkBuffer planBuffer;   /* SurveyPlan; usage TRANSFER_SRC */
   VkDeviceSize planOffset;
   VkBuffer histogramBuffer; /* uint32_t[2048], how many cells each bin has; usage TRANSFER_DST */
   VkDeviceSize histogramOffset;
 } VkhSurveyScore;
-/* Scores all cells: by the bits of a score above the 20 lowest, a cell has its bin, 0 for none. */
+/* Scores cells: by the bits of a score above the 20 lowest, a cell has its bin; bin 0 counts those
+ * that are in their face's way although no split helps. All cells must have been scored before some
+ * are split. */
 VKH_API void vkhCmdScoreSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhProblem* problem, const VkhSurvey* survey,
                                const VkhSurveyScore* score);
@@ -103,8 +105,8 @@ VKH_API void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer
                                const VkhSurveyBound* bound, VkhProfile* profile);
 
 typedef struct VkhSurveyTally {
-  uint32_t cells; /* that there are */
-  int32_t unit;   /* every distance is below 2^(unit - 127) */
+  uint32_t first, count; /* of the cells */
+  int32_t unit;          /* every distance is below 2^(unit - 127) */
   VkBuffer planBuffer;
   VkDeviceSize planOffset;
   VkBuffer tableBuffer; /* SurveyTable; usage TRANSFER_DST */

@@ -487,6 +487,12 @@ struct SurveyPlan {
   // A map scores a cell by its width over `map_step`, if it has more than `map_area` of the area
   // and is not all farther than `map_most`. 0: there is no map.
   float map_step, map_area, map_most;
+  // A cell is in the way of its face where it has points that may be farther than `face_within`,
+  // and by more than `face_tolerance` than what the face is known to reach, unless that is more
+  // than `face_beyond`. 0: faces have no goal.
+  uint faces;
+  float face_tolerance, face_within, face_beyond;
+  SurveyEdge most;                 // a distance beyond it counts as 0 in means and mean squares
   SurveyEdge edges[kSurveyEdges];  // of the tally
   SurveyEdge open[kSurveyOpen];    // area that is undecided there scores
   float shares[kSurveyOpen];       // so much
@@ -660,7 +666,7 @@ struct SurveyBeginPush {
 
 // survey_score and survey_tally
 struct SurveyPush {
-  uint cells;
+  uint first, end;  // the cells from the first one to the one before the end
   uint groups;      // of the dispatch
   int unit;         // distances are below 2^(unit - 127),
   int square_unit;  // and their squares below 2^(square_unit - 127)

@@ -36,6 +36,10 @@ struct SurveyChoice {
   uint32_t count() const { return above + ties; }
 };
 
+struct CellRange {
+  uint32_t first = 0, count = 0;
+};
+
 /// A survey's cells, which stay on the device: they tile A, each with its bounds. Calls block until
 /// the device has done what they ask for, but for those that say otherwise.
 class SurveyCells {
@@ -47,16 +51,18 @@ class SurveyCells {
   virtual size_t count() const = 0;
   /// The most cells that the device can bind.
   virtual size_t most() const = 0;
-  /// Counts the cells by the bins of their scores: gpu::kScoreBins, 0 for none.
-  virtual std::span<const uint32_t> score(const gpu::SurveyPlan& plan) = 0;
+  /// Counts some cells by the bins of their scores, gpu::kScoreBins of them; bin 0 has those that
+  /// are in their face's way although no split helps. All are scored before a split.
+  virtual std::span<const uint32_t> score(const gpu::SurveyPlan& plan, const CellRange& some) = 0;
   /// Splits each chosen cell into parts, which have no bounds of their own until bound(); returns
   /// false, and does nothing, if there is no memory for them. It need not wait.
   virtual bool split(const SurveyChoice& choice) = 0;
   /// Bounds new cells, which are the parts of those that were split, or A's faces. `wait`: false if
   /// more of them or a tally follow.
   virtual void bound(size_t first, size_t count, bool wait) = 0;
-  /// Adds up all cells at the plan's edges. Every distance is below 2^(unit - 127).
-  virtual const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit) = 0;
+  /// Adds up some cells at the plan's edges. Every distance is below 2^(unit - 127).
+  virtual const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit,
+                                        const CellRange& some) = 0;
   /// Returns, of each face of A, a distance that some point reaches, and then, of each, one that
   /// none exceeds.
   virtual std::vector<float> faces() = 0;

@@ -67,11 +67,12 @@ void DeviceCells::write_plan(const gpu::SurveyPlan& plan) {
   std::memcpy(buffers_.plan.mapped(), &plan, sizeof(plan));
 }
 
-std::span<const uint32_t> DeviceCells::score(const gpu::SurveyPlan& plan) {
+std::span<const uint32_t> DeviceCells::score(const gpu::SurveyPlan& plan, const CellRange& some) {
   write_plan(plan);
-  waiting_.push_back([this](VkCommandBuffer commands) {
+  waiting_.push_back([this, some](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
-    const VkhSurveyScore score{count_, buffers_.plan.handle(), 0, buffers_.histogram.handle(), 0};
+    const VkhSurveyScore score{
+        some.first, some.count, buffers_.plan.handle(), 0, buffers_.histogram.handle(), 0};
     vkhCmdScoreSurvey(context_, commands, &problem_, &survey, &score);
   });
   submit();
@@ -127,11 +128,13 @@ void DeviceCells::bound(size_t first, size_t count, bool wait) {
   if (wait) submit();
 }
 
-const gpu::SurveyTable& DeviceCells::tally(const gpu::SurveyPlan& plan, int unit) {
+const gpu::SurveyTable& DeviceCells::tally(const gpu::SurveyPlan& plan, int unit,
+                                           const CellRange& some) {
   write_plan(plan);
-  waiting_.push_back([this, unit](VkCommandBuffer commands) {
+  waiting_.push_back([this, unit, some](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
-    const VkhSurveyTally tally{count_, unit, buffers_.plan.handle(), 0, buffers_.table.handle(), 0};
+    const VkhSurveyTally tally{
+        some.first, some.count, unit, buffers_.plan.handle(), 0, buffers_.table.handle(), 0};
     vkhCmdTallySurvey(context_, commands, &problem_, &survey, &tally);
   });
   submit();

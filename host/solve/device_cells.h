@@ -31,10 +31,11 @@ class DeviceCells : public SurveyCells {
   void begin(std::span<const uint64_t> weights, float farthest) override;
   size_t count() const override { return count_; }
   size_t most() const override { return vkhGetSurveyCapacity(context_); }
-  std::span<const uint32_t> score(const gpu::SurveyPlan& plan) override;
+  std::span<const uint32_t> score(const gpu::SurveyPlan& plan, const CellRange& some) override;
   bool split(const SurveyChoice& choice) override;
   void bound(size_t first, size_t count, bool wait) override;
-  const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit) override;
+  const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit,
+                                const CellRange& some) override;
   std::vector<float> faces() override;
   void read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) override;
 

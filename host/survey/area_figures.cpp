@@ -3,69 +3,98 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <utility>
+
+#include "host/survey/kept.h"
 
 namespace vkh {
 namespace {
 
 constexpr int kCurveSteps = 100;
 
-std::vector<AreaWithin> within(AreaDistances& distances, const FiguresAsked& asked,
-                               const std::vector<double>& ascending) {
-  std::vector<Threshold> at;
-  at.reserve(ascending.size());
-  for (const double d : ascending) at.push_back(asked.threshold(d));
-  const std::vector<Enclosure> shares = distances.shares_within(at);
-  std::vector<AreaWithin> all;
-  for (size_t i = 0; i < at.size(); ++i) {
-    // All area is within a distance that none exceeds: by the threshold, which displacement moves,
-    // only nearly all may be.
-    const bool is_all = ascending[i] >= asked.largest;
-    all.push_back({ascending[i], is_all ? Enclosure{1, 1} : shares[i]});
+// What the figures of a surface are asked of one tally, and where the answers stand.
+class Questions {
+ public:
+  Questions(const FiguresAsked& asked, bool has_curve) : asked_(asked) {
+    for (const Threshold& band : asked.bands()) {
+      const auto around = asked.around(band);
+      at_.insert(at_.end(), around.begin(), around.end());
+    }
+    curve_ = at_.size();
+    for (int k = 0; has_curve && k <= kCurveSteps; ++k) {
+      steps_.push_back(asked.largest * k / kCurveSteps);
+      at_.push_back(asked.threshold(steps_.back()));
+    }
+    if (asked.options.max_distance) at_.push_back(asked.most());
   }
-  return all;
-}
 
-// All area is within a band that no distance exceeds, whatever its threshold says.
-void add_jumps(AreaDistances& distances, const FiguresAsked& asked,
-               std::vector<AreaWithin>& bands) {
-  std::vector<Threshold> at;
-  for (const Threshold& band : asked.bands()) {
-    at.push_back(band);
-    at.push_back({band.down - asked.least, band.down - asked.least});
-    at.push_back({band.up + asked.least, band.up + asked.least});
-  }
-  const std::vector<Enclosure> all = distances.shares_within(at);
-  for (size_t i = 0; i < bands.size(); ++i) {
-    bands[i].jump = asked.is_atom(all[3 * i], all[3 * i + 1], all[3 * i + 2]) &&
-                    FiguresAsked::width(bands[i].share) > asked.options.area_tolerance;
-  }
-}
+  std::span<const Threshold> at() const { return at_; }
 
-std::vector<AreaWithin> curve_of(AreaDistances& distances, const FiguresAsked& asked) {
-  std::vector<double> steps;
-  for (int k = 0; k <= kCurveSteps; ++k) steps.push_back(asked.largest * k / kCurveSteps);
-  return within(distances, asked, steps);
-}
+  std::vector<AreaWithin> bands(const Tallied& all) const {
+    std::vector<AreaWithin> bands;
+    for (size_t i = 0; i < asked_.options.bands.size(); ++i) {
+      constexpr size_t kOfBand = FiguresAsked::kOfBand;
+      const auto around = std::span(all.shares).subspan(kOfBand * i, kOfBand);
+      bands.push_back(within(asked_.options.bands[i], around[0]));
+      bands[i].jump = asked_.is_atom(around) &&
+                      FiguresAsked::width(bands[i].share) > asked_.options.area_tolerance;
+    }
+    return bands;
+  }
+  std::vector<AreaWithin> curve(const Tallied& all) const {
+    std::vector<AreaWithin> curve;
+    for (size_t k = 0; k < steps_.size(); ++k)
+      curve.push_back(within(steps_[k], all.shares[curve_ + k]));
+    return curve;
+  }
+  // The share that is within max_distance.
+  static Enclosure kept(const Tallied& all) { return all.shares.back(); }
+
+ private:
+  // All area is within a distance that none exceeds: by the threshold, which displacement moves,
+  // only nearly all may be.
+  AreaWithin within(double distance, const Enclosure& share) const {
+    return {distance, distance >= asked_.largest ? Enclosure{1, 1} : share};
+  }
+
+  const FiguresAsked& asked_;
+  std::vector<Threshold> at_;
+  std::vector<double> steps_;
+  size_t curve_ = 0;
+};
 
 std::vector<Percentile> percentiles_of(AreaDistances& distances, const FiguresAsked& asked,
-                                       std::span<const Enclosure> known, const SurveyedPair& pair) {
+                                       const SurveyedPair& pair) {
   const std::vector<double>& shares = asked.options.percentiles;
   const std::vector<Enclosure> at =
-      distances.percentiles({shares, asked.resolution(distances.reached()), known});
-  std::vector<Threshold> beside;
-  for (const Enclosure& p : at) {
-    beside.push_back({p.lower + asked.beside(p), p.lower + asked.beside(p)});
-    beside.push_back({p.upper - asked.beside(p), p.upper - asked.beside(p)});
-  }
-  const std::vector<Enclosure> between = distances.shares_within(beside);
+      distances.percentiles({shares, asked.resolution(distances.reached())});
   std::vector<Percentile> found;
-  for (size_t i = 0; i < at.size(); ++i)
-    found.push_back({shares[i], in_files(pair, at[i]),
-                     asked.is_gap(at[i], between[2 * i], between[2 * i + 1])});
+  std::vector<Threshold> beside;
+  for (size_t i = 0; i < at.size(); ++i) {
+    found.push_back({shares[i], in_files(pair, at[i]), false});
+    if (!asked.is_open(at[i])) continue;
+    const double near = at[i].lower + asked.beside(at[i]), far = at[i].upper - asked.beside(at[i]);
+    beside.insert(beside.end(), {{near, near}, {far, far}});
+  }
+  if (beside.empty()) return found;
+  const std::vector<Enclosure> between = distances.tally({beside}).shares;
+  for (size_t i = 0, k = 0; i < at.size(); ++i) {
+    if (!asked.is_open(at[i])) continue;
+    found[i].jump = asked.is_gap(at[i], between[k], between[k + 1]);
+    k += 2;
+  }
   return found;
 }
 
 }  // namespace
+
+Tallied StoredDistances::tally(const Tally& asked) {
+  Tallied all;
+  all.shares = shares_within(store_, areas_, asked.at);
+  if (asked.moments) all.moments = moments_of(store_, areas_, *asked.moments);
+  all.highest = highest();
+  return all;
+}
 
 double StoredDistances::highest() {
   const std::vector<float> highest = store_.highest_of_faces();
@@ -80,26 +109,29 @@ bool has_only_shares(const SurveyOptions& options) {
 }
 
 std::optional<Statistics> statistics_of(AreaDistances& distances, const Areas& areas,
-                                        std::span<const Enclosure> known, const SurveyedPair& pair,
-                                        const SurveyOptions& options) {
+                                        const SurveyedPair& pair, const SurveyOptions& options) {
   if (!areas.is_positive()) return std::nullopt;
   FiguresAsked asked(options, pair);
   asked.largest = in_files(pair, {0, distances.highest()}).upper;
   const double area = areas.unit.length_up(areas.unit.length_up(areas.whole));
   if (!std::isfinite(asked.largest) || !std::isfinite(area)) return std::nullopt;
-  const Moments moments = distances.moments();
+  const Questions questions(asked, !has_only_shares(options));
+  const Tallied all = distances.tally({questions.at(), asked.most()});
   Statistics s;
   if (pair.a.are_points) {
     s.points = pair.a.faces.size();
   } else {
     s.area = area;
   }
-  s.mean = in_files(pair, moments.mean);
-  s.rms = in_files(pair, moments.rms);
-  s.bands = within(distances, asked, options.bands);
-  add_jumps(distances, asked, s.bands);
-  s.percentiles = percentiles_of(distances, asked, known, pair);
-  if (!has_only_shares(options)) s.curve = curve_of(distances, asked);
+  s.bands = questions.bands(all);
+  s.curve = questions.curve(all);
+  if (options.max_distance) {
+    keep_within({asked, pair, Questions::kept(all), all.moments}, distances, s);
+    return s;
+  }
+  s.mean = in_files(pair, all.moments.mean);
+  s.rms = in_files(pair, all.moments.rms);
+  s.percentiles = percentiles_of(distances, asked, pair);
   return s;
 }
 

@@ -11,15 +11,20 @@
 
 namespace vkh {
 
+/// Asks for the share of A's area within each threshold, and for moments, if a distance is given
+/// beyond which one counts as 0.
+struct Tally {
+  std::span<const Threshold> at;
+  std::optional<Threshold> moments = {};
+};
+
 /// Tells what cells prove of the distances over A, in the frame.
 class AreaDistances {
  public:
   virtual ~AreaDistances() = default;
-  /// The share of A's area within each threshold.
-  virtual std::vector<Enclosure> shares_within(std::span<const Threshold> thresholds) = 0;
+  virtual Tallied tally(const Tally& asked) = 0;
   /// The least distance that each share of A's area is within.
   virtual std::vector<Enclosure> percentiles(const PercentileSearch& search) = 0;
-  virtual Moments moments() = 0;
   virtual double reached() = 0;  ///< some point is so far,
   virtual double highest() = 0;  ///< and none is farther
 };
@@ -28,13 +33,10 @@ class AreaDistances {
 class StoredDistances : public AreaDistances {
  public:
   StoredDistances(const CellStore& store, const Areas& areas) : store_(store), areas_(areas) {}
-  std::vector<Enclosure> shares_within(std::span<const Threshold> thresholds) override {
-    return vkh::shares_within(store_, areas_, thresholds);
-  }
+  Tallied tally(const Tally& asked) override;
   std::vector<Enclosure> percentiles(const PercentileSearch& search) override {
     return vkh::percentiles(store_, areas_, search);
   }
-  Moments moments() override { return moments_of(store_, areas_); }
   double reached() override { return static_cast<double>(store_.reached()); }
   double highest() override;
 
@@ -47,10 +49,9 @@ class StoredDistances : public AreaDistances {
 /// figures then have no estimate, and there is no curve.
 bool has_only_shares(const SurveyOptions& options);
 
-/// Returns nothing if A has no area. `known`: of the percentiles, in the frame; or empty.
+/// Returns the figures of A, or of its part within options.max_distance; nothing if A has no area.
 std::optional<Statistics> statistics_of(AreaDistances& distances, const Areas& areas,
-                                        std::span<const Enclosure> known, const SurveyedPair& pair,
-                                        const SurveyOptions& options);
+                                        const SurveyedPair& pair, const SurveyOptions& options);
 
 /// Makes the middle of each figure's interval its estimate: where a goal is met, that is within
 /// half of what it allows.

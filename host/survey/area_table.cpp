@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 namespace vkh {
 namespace {
+
+constexpr double kFarthest = 3e38;  // a float
 
 // Covers an integer of 64 bits as a double, which is off by 2^-53, and the few sums, products and
 // quotients of one sign that it goes through.
@@ -62,11 +65,33 @@ TallyEdges edges_of(std::span<const Threshold> thresholds) {
   const std::vector<size_t> downs = order_of(thresholds, [](const Threshold& t) { return t.down; });
   const std::vector<size_t> ups = order_of(thresholds, [](const Threshold& t) { return t.up; });
   for (size_t k = 0; k < thresholds.size(); ++k) {
-    all.edges[k].down = -least_float_above(-thresholds[downs[k]].down);
-    all.edges[k].up = least_float_above(thresholds[ups[k]].up);
+    all.edges[k] = edge_of({thresholds[downs[k]].down, thresholds[ups[k]].up});
     all.of[downs[k]].down = all.of[ups[k]].up = k;
   }
   return all;
+}
+
+gpu::SurveyEdge edge_of(const Threshold& at) {
+  return {-least_float_above(-std::min(at.down, kFarthest)),
+          least_float_above(std::min(at.up, kFarthest))};
+}
+
+gpu::SurveyPlan plan_of(const TallyEdges& at, const std::optional<Threshold>& moments) {
+  gpu::SurveyPlan plan{};
+  plan.edge_count = static_cast<uint32_t>(at.edges.size());
+  std::copy(at.edges.begin(), at.edges.end(), std::begin(plan.edges));
+  plan.moments = moments ? 1 : 0;
+  if (moments) plan.most = edge_of(*moments);
+  return plan;
+}
+
+void add_table(const gpu::SurveyTable& table, gpu::SurveyTable& sum) {
+  for (size_t k = 0; k < gpu::kSurveySums; ++k) {
+    const uint64_t both = whole_of(sum.sums[k]) + whole_of(table.sums[k]);
+    sum.sums[k] = {static_cast<uint32_t>(both), static_cast<uint32_t>(both >> 32)};
+  }
+  sum.highest = std::max(sum.highest, table.highest);
+  sum.not_lowest = std::max(sum.not_lowest, table.not_lowest);
 }
 
 // Equal surfaces have no distance at all, and a unit must have a square.
@@ -117,8 +142,10 @@ double AreaTable::mean_up(uint32_t sum, double largest) const {
   return kMore * (most / (weights_.whole - weights_.error));
 }
 
-Moments AreaTable::moments() const {
-  const double largest = highest() / unit_, square = largest * largest;
+// No value that counts is above `most`: it may count on so much area as the areas are off by.
+Moments AreaTable::moments(const Threshold& most) const {
+  const double largest = std::min(highest(), std::max(most.up, 0.0)) / unit_,
+               square = largest * largest;
   return {{unit_ * mean_down(gpu::kMeanLower, largest), unit_ * mean_up(gpu::kMeanUpper, largest)},
           {unit_ * kLess * std::sqrt(mean_down(gpu::kSquareLower, square)),
            unit_ * kMore * std::sqrt(mean_up(gpu::kSquareUpper, square))}};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,14 @@ struct TallyEdges {
   std::vector<Places> of;  ///< of each threshold
 };
 TallyEdges edges_of(std::span<const Threshold> thresholds);
+/// A threshold in floats: its ends are no nearer.
+gpu::SurveyEdge edge_of(const Threshold& at);
+
+/// The plan of a tally at these edges; with moments, a distance beyond them counts as 0.
+gpu::SurveyPlan plan_of(const TallyEdges& at, const std::optional<Threshold>& moments);
+
+/// Adds what a tally says of other cells.
+void add_table(const gpu::SurveyTable& table, gpu::SurveyTable& sum);
 
 /// The unit of a tally: every distance is below 2^(unit - 127).
 int tally_unit(float farthest);
@@ -43,7 +52,8 @@ class AreaTable {
 
   /// The share of A's area within each threshold.
   std::vector<Enclosure> shares() const;
-  Moments moments() const;
+  /// The tally's moments: a distance beyond `most` counted as 0.
+  Moments moments(const Threshold& most) const;
   double lowest() const;   ///< no distance is less,
   double highest() const;  ///< and none is more
 

@@ -12,7 +12,7 @@ std::vector<Enclosure> Distribution::shares_within(std::span<const double> ascen
   at.reserve(ascending.size());
   for (const double distance : ascending)
     at.push_back(threshold_at(pair_.frame, pair_.displacement, distance));
-  std::vector<Enclosure> shares = distances_.shares_within(at);
+  std::vector<Enclosure> shares = distances_.tally({at}).shares;
   const double largest = in_files(pair_, {0, distances_.highest()}).upper;
   for (size_t i = 0; i < shares.size(); ++i) {
     // By the threshold, which displacement moves, only nearly all area may be within the largest.

@@ -25,6 +25,14 @@ std::vector<Threshold> FiguresAsked::bands() const {
   return at;
 }
 
+// A distance of the files in the frame, from below and above what it is on the stored meshes.
+Threshold FiguresAsked::most() const {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  if (!options.max_distance) return {kAny, kAny};
+  return {frame.to_frame(options.max_distance->within) * (1 - 1e-15) - displacement,
+          frame.to_frame(options.max_distance->beyond) * (1 + 1e-15) + displacement};
+}
+
 double FiguresAsked::width_of_share(const Enclosure& share, size_t band) const {
   if (band >= options.other_shares.size()) return width(share);
   return std::max(width(share), width(harmonic_mean(share, options.other_shares[band])));
@@ -35,8 +43,13 @@ bool FiguresAsked::is_enough(const Enclosure& share, size_t band) const {
   return share.lower >= *options.enough || share.upper < *options.enough;
 }
 
-bool FiguresAsked::is_atom(const Enclosure& share, const Enclosure& before,
-                           const Enclosure& behind) const {
+std::array<Threshold, FiguresAsked::kOfBand> FiguresAsked::around(const Threshold& band) const {
+  return {
+      band, Threshold{band.down - least, band.down - least}, {band.up + least, band.up + least}};
+}
+
+bool FiguresAsked::is_atom(std::span<const Enclosure> around) const {
+  const Enclosure &share = around[0], &before = around[1], &behind = around[2];
   const double there = behind.lower - before.upper, tolerance = options.area_tolerance;
   return width(share) > tolerance && width(share) - there <= tolerance;
 }

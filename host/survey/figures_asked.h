@@ -2,13 +2,22 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "host/survey/statistics.h"
 #include "vkhausdorff/survey.h"
 
 namespace vkh {
+
+/// The answer of a tally at the thresholds that it was asked, in the frame.
+struct Tallied {
+  std::vector<Enclosure> shares;   ///< of A's area within each
+  Moments moments;                 ///< if they were asked for
+  double lowest = 0, highest = 0;  ///< no distance is less, or more
+};
 
 struct FiguresAsked {
   FiguresAsked(const SurveyOptions& asked, const SurveyedPair& pair);
@@ -29,14 +38,18 @@ struct FiguresAsked {
   bool is_open(const Enclosure& length) const { return width(length) > enough(length); }
   Threshold threshold(double distance) const { return threshold_at(frame, displacement, distance); }
   std::vector<Threshold> bands() const;
+  static constexpr size_t kOfBand = 3;
+  /// The thresholds that tell of a band: itself, and a least width before and behind it.
+  std::array<Threshold, kOfBand> around(const Threshold& band) const;
+  /// The distance beyond which one counts as 0 in moments.
+  Threshold most() const;
   /// How far a share is to be narrowed: its own width, or that of its harmonic mean with the other
   /// surface's share where that is larger.
   double width_of_share(const Enclosure& share, size_t band) const;
   bool is_enough(const Enclosure& share, size_t band) const;
-  /// Whether an undecided share is so for ever: but for what is enough, the undecided area is
-  /// proven to lie at that distance, as well as floats tell. `before` and `behind`: the shares
-  /// within a least width less, and more.
-  bool is_atom(const Enclosure& share, const Enclosure& before, const Enclosure& behind) const;
+  /// Whether an undecided share is so for ever, by the shares around the band: but for what is
+  /// enough, the undecided area is proven to lie at that distance, as well as floats tell.
+  bool is_atom(std::span<const Enclosure> around) const;
   /// How far from the ends of a percentile that jumps nearly no area may lie: two fifths of the
   /// width that would be enough.
   double beside(const Enclosure& percentile) const { return 0.4 * enough(percentile); }

@@ -18,34 +18,6 @@ double spread(const gpu::CellBounds& b) {
   return static_cast<double>(b.highest) - static_cast<double>(lowest(b));
 }
 
-// A cell scores if it lifts its face's highest too far above what the face reaches.
-Scores score_faces(const CellStore& store, const FiguresAsked& asked) {
-  const SurveyOptions& options = asked.options;
-  const double wanted = options.field_tolerance > 0
-                            ? asked.frame.to_frame(options.field_tolerance)
-                            : options.face_tolerance * static_cast<double>(store.reached());
-  const double tolerance = wanted - 2 * asked.displacement;
-  return scored(store, [&](size_t i) -> std::optional<double> {
-    const double above = static_cast<double>(store.bounds(i).highest) -
-                         static_cast<double>(store.reached(store.face(i)));
-    if (above <= tolerance) return std::nullopt;
-    return above > kFloor ? above : 0;
-  });
-}
-
-// A cell scores if it is too far for the limit, on a face that is not known to be beyond it.
-Scores score_verdicts(const CellStore& store, const FiguresAsked& asked) {
-  const double within = asked.threshold(asked.options.limit.within).down;
-  const double beyond = asked.threshold(asked.options.limit.beyond).up;
-  return scored(store, [&](size_t i) -> std::optional<double> {
-    const gpu::CellBounds& b = store.bounds(i);
-    const double above = static_cast<double>(b.highest) - within;
-    const auto reached = static_cast<double>(store.reached(store.face(i)));
-    if (above <= 0 || reached > beyond) return std::nullopt;
-    return spread(b) > kFloor ? above : 0;
-  });
-}
-
 // Whether a band cuts what is known of a point.
 bool is_cut(const gpu::CellBounds& b, const std::vector<Threshold>& bands) {
   return std::any_of(bands.begin(), bands.end(), [&](const Threshold& at) {
@@ -104,10 +76,6 @@ Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths) {
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair) {
   std::vector<Goal> goals;
   const FiguresAsked asked(options, pair);
-  if (options.faces && options.limit.within > 0)
-    goals.emplace_back([asked](const CellStore& store) { return score_verdicts(store, asked); });
-  if (options.faces)
-    goals.emplace_back([asked](const CellStore& store) { return score_faces(store, asked); });
   if (options.statistics && pair.a.are_points)
     goals.emplace_back([asked](const CellStore& store) { return score_points(store, asked); });
   return goals;

@@ -76,18 +76,14 @@ Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);
 /// floats leave.
 double least_width(const SurveyedPair& pair);
 
-/// The goals one after the other: faces, by verdicts and by their bounds; and points of A, each of
-/// which is measured where a figure needs it. Figures of a surface have none here: wave_survey.h.
+/// The goals of points of A, each of which is measured where a figure needs it. Those of a surface
+/// are sought by waves: wave_survey.h.
 std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair);
 
 /// The surface that figures are of.
 struct SurveyedArea {
   const CellStore& store;
   const Areas& areas;
-  const std::vector<Enclosure>& known;  ///< of the percentiles, in the frame; or empty
 };
-/// Makes figures those of the part of A that is within options.max_distance.
-void keep_within(const SurveyedArea& surface, const SurveyedPair& pair,
-                 const SurveyOptions& options, Statistics& s);
 
 }  // namespace vkh

@@ -18,10 +18,9 @@ class MapGoals : public WaveGoals {
            double farthest);
 
   std::vector<Threshold> thresholds() const override;
-  bool wants_moments() const override { return false; }
   bool look(const Tallied& tallied) override;
   bool are_met() const override { return false; }
-  SurveyEnd at_rest() const override { return SurveyEnd::kMet; }
+  SurveyEnd at_rest(bool /*is_stuck*/) const override { return SurveyEnd::kMet; }
   gpu::SurveyPlan plan(double whole) const override;
   double part() const override { return 1; }  // each cell that scores is in its way
   bool is_worth(size_t split, size_t cells) const override {

@@ -33,8 +33,6 @@ class PooledGoals : public WaveGoals {
   PooledGoals(const PooledSearch& search, const Distribution& own, const SurveyedPair& pair)
       : search_(search), own_(own), pair_(pair), known_(search.known) {}
 
-  std::vector<Threshold> thresholds() const override { return {}; }
-  bool wants_moments() const override { return false; }
   bool look(const Tallied& tallied) override;
   bool are_met() const override { return !is_open_; }
   gpu::SurveyPlan plan(double whole) const override;

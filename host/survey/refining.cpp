@@ -81,12 +81,12 @@ std::vector<size_t> chosen_points(Scores& scores, size_t most) {
 template <class Work>
 void Refining::in_batches(size_t count, const Work& work) {
   for (size_t first = 0; first < count && (meter_.bounded() == 0 || meter_.goes_on());) {
-    std::vector<gpu::CellBounds> bounds(std::min(meter_.batch(), count - first));
+    std::vector<gpu::CellBounds> bounds(std::min(meter_.bounds().size(), count - first));
     const double start = meter_.ms();
     work(first, bounds);
     first += bounds.size();
     meter_.note_bounded(bounds.size());
-    meter_.note_batch(bounds.size(), meter_.ms() - start);
+    meter_.bounds().note(bounds.size(), meter_.ms() - start);
   }
 }
 

@@ -87,7 +87,7 @@ double resolution_of(const CellStore& cells) {
 void add_statistics(const SurveyedPair& pair, const SurveyedArea& surface,
                     const std::vector<CellSide>& sides, std::span<const Enclosure> known,
                     SignedFigures& figures) {
-  const auto& [store, areas, plain] = surface;
+  const auto& [store, areas] = surface;
   figures.mean = signed_in_files(pair, signed_mean(store, sides, areas));
   const std::vector<Enclosure> at =
       signed_percentiles(store, sides, areas, {kSignedShares, resolution_of(store), known});

@@ -8,6 +8,29 @@
 
 namespace vkh {
 
+/// How many cells a submission should have, so that it takes as long as it should. How many they
+/// are decides no result.
+class BatchSize {
+ public:
+  BatchSize(size_t first, size_t most, double submission_ms)
+      : size_(first), most_(most), submission_ms_(submission_ms) {}
+  size_t size() const { return size_; }
+  /// Notes that a submission of so many cells took so long.
+  void note(size_t cells, double ms) {
+    if (ms <= submission_ms_ && cells < size_) return;  // it tells of costs that all have
+    const double fits = submission_ms_ * static_cast<double>(cells) / std::max(ms, 1e-6);
+    const size_t most = std::min(4 * size_, most_);
+    size_ = fits >= static_cast<double>(most) ? most
+                                              : std::max(static_cast<size_t>(fits) / 4 * 4, kLeast);
+  }
+
+ private:
+  static constexpr size_t kLeast = 64;  // halves come in twos, and parts in fours
+  size_t size_;
+  const size_t most_;
+  const double submission_ms_;
+};
+
 class SurveyMeter {
  public:
   /// `keeps_time_for_sides`: cells are split in the first part of the time alone. The options
@@ -16,7 +39,8 @@ class SurveyMeter {
       : options_(options),
         ms_of_cells_(1000 * options.time_limit_s * (keeps_time_for_sides ? kPartOfCells : 1)),
         effort_(options.effort.value_or(default_effort(on_cpu))),
-        batch_(on_cpu ? 1024 : 65536) {}
+        bounds_(on_cpu ? 1024 : 65536, kMostBounds, options.submission_ms),
+        looks_(on_cpu ? 65536 : kMostLooks, kMostLooks, options.submission_ms) {}
 
   /// Whether the caller lets the survey go on, however long it took.
   bool is_wanted() {
@@ -35,19 +59,10 @@ class SurveyMeter {
   size_t effort_left() const { return effort_ - std::min(spent_, effort_); }
   void spend(size_t cells) { spent_ += cells; }
 
-  /// Cells of the next submission. How many they are decides no result.
-  size_t batch() const { return batch_; }
+  BatchSize& bounds() { return bounds_; }  ///< of submissions that bound cells
+  BatchSize& looks() { return looks_; }    ///< of those that look at cells that have bounds
   size_t bounded() const { return bounded_; }
   void note_bounded(size_t cells) { bounded_ += cells; }
-  /// Notes that a submission of so many cells took so long: the next one takes as long as it
-  /// should.
-  void note_batch(size_t cells, double ms) {
-    const double fits = options_.submission_ms * static_cast<double>(cells) / std::max(ms, 1e-6);
-    const size_t most = std::min(4 * batch_, kMostBatch);
-    batch_ = fits >= static_cast<double>(most)
-                 ? most
-                 : std::max(static_cast<size_t>(fits) / 4 * 4, kLeastBatch);
-  }
   /// Calls `work`, whose time counts as the device's, and returns how long it took.
   template <class Work>
   double on_device(const Work& work) {
@@ -84,14 +99,13 @@ class SurveyMeter {
   }
 
   static constexpr double kPartOfCells = 0.7;
-  static constexpr size_t kLeastBatch = 64,  // halves come in twos, and parts in fours
-      kMostBatch = size_t{1} << 20;
+  static constexpr size_t kMostBounds = size_t{1} << 20, kMostLooks = size_t{1} << 24;
   const SurveyOptions& options_;
   Clock::time_point start_ = Clock::now();
   double ms_before_ = 0, ms_of_cells_;
   const size_t effort_;
   size_t spent_ = 0;
-  size_t batch_;
+  BatchSize bounds_, looks_;
   size_t bounded_ = 0;
   double device_ms_ = 0;
   SurveyEnd ended_ = SurveyEnd::kMet, sides_ended_ = SurveyEnd::kMet;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/survey/face_goals.h"
 #include "host/survey/map_goal.h"
 #include "vkhausdorff/error.h"
 
@@ -19,14 +20,9 @@ void check_shares(const std::vector<double>& shares) {
 
 bool finds_sides(const SurveyOptions& options) { return options.is_signed || options.sided; }
 
-// Whether something besides the figures of a surface is asked for, which cells are split for, too.
-bool has_other_goals(const SurveyOptions& options) {
-  return options.faces || options.normals_within || finds_sides(options);
-}
-
-// Whether the host must hold the cells.
-bool needs_store(const SurveyOptions& options) {
-  return has_other_goals(options) || options.max_distance || options.map;
+// Whether the host goes on with the cells.
+bool has_host_goals(const SurveyOptions& options) {
+  return options.normals_within || finds_sides(options);
 }
 
 SurveyedPair with_upper(SurveyedPair pair, double upper) {
@@ -67,17 +63,25 @@ Surveying::Surveying(const SurveyedPair& pair, const SurveyOptions& options)
 void Surveying::run(SurveyResult& result) {
   result.faces = options_.faces;
   result.ended = SurveyEnd::kMet;
-  if (goes_by_waves()) run_by_waves(result);
-  if (distances_ == nullptr) run_on_store(result);
+  if (goes_by_waves()) {
+    waves_.emplace(pair_, areas_, meter_, farthest());
+    distances_ = &*waves_;
+    refine_by_waves(result);
+  }
+  if (waves_ && !has_host_goals(options_)) {
+    add_field(result);
+    add_figures(result);
+  } else {
+    refine_store(result);
+  }
+  if (options_.map && areas_.is_positive()) add_map(result);
+  result.ended = std::max(result.ended, meter_.ended());
   if (options_.statistics && !result.statistics)
     result.ended = std::max(result.ended, SurveyEnd::kBits);
   add_counts(result);
 }
 
-bool Surveying::goes_by_waves() const {
-  return pair_.cells != nullptr && (options_.statistics || options_.map) && !pair_.a.are_points &&
-         areas_.is_positive();
-}
+bool Surveying::goes_by_waves() const { return pair_.cells != nullptr && !pair_.a.are_points; }
 
 // No distance is above it, in the frame.
 float Surveying::farthest() const {
@@ -85,13 +89,14 @@ float Surveying::farthest() const {
   return static_cast<float>(std::min(most * (1 + 1e-6), 1e38));
 }
 
-// A picture may take half of the effort before figures, and what they leave after them. If the host
-// must hold the cells, it takes over.
-void Surveying::run_by_waves(SurveyResult& result) {
-  waves_.emplace(pair_, areas_, meter_, farthest());
-  const size_t effort = meter_.effort() / (has_other_goals(options_) ? 2 : 1);
+// A picture may take half of the effort before figures, and what they leave after them; all of it
+// may take half where there are goals of faces, or the host goes on.
+void Surveying::refine_by_waves(SurveyResult& result) {
+  const bool has_more = options_.faces || has_host_goals(options_);
+  const size_t effort = meter_.effort() / (has_more ? 2 : 1);
   std::optional<MapGoals> map;
-  if (options_.map) map.emplace(options_, pair_, areas_, waves_->farthest());
+  if (options_.map && areas_.is_positive())
+    map.emplace(options_, pair_, areas_, waves_->farthest());
   const auto refine_map = [&](size_t most) {
     map->begin_coarse();
     waves_->refine(*map, most);
@@ -99,29 +104,29 @@ void Surveying::run_by_waves(SurveyResult& result) {
     return waves_->refine(*map, most);
   };
   if (map) refine_map(effort / 2);
-  if (options_.statistics) {
+  if (options_.statistics && areas_.is_positive()) {
     FigureGoals goals(options_, pair_, waves_->farthest());
     result.ended = std::max(result.ended, waves_->refine(goals, effort));
-    known_ = goals.percentiles();
   }
   if (map) result.ended = std::max(result.ended, refine_map(effort));
-  if (needs_store(options_)) {
-    store_.emplace(waves_->store());
-    return waves_.reset();
-  }
-  distances_ = &*waves_;
-  const std::span<const float> faces = waves_->faces();
-  const size_t count = faces.size() / 2;
-  result.field = field_of(faces.first(count), faces.last(count), pair_);
-  result.statistics = statistics_of(*distances_, areas_, known_, pair_, options_);
-  if (result.statistics) add_middles(has_only_shares(options_), *result.statistics);
+  if (options_.faces) result.ended = std::max(result.ended, refine_faces(meter_.effort()));
 }
 
-void Surveying::run_on_store(SurveyResult& result) {
-  if (!store_) {
-    store_.emplace(pair_.a, farthest());
-    refining_.bound_faces(*store_);
+// Verdicts first.
+SurveyEnd Surveying::refine_faces(size_t effort) {
+  FaceGoals goals(options_, pair_, *waves_);
+  SurveyEnd ended = SurveyEnd::kMet;
+  if (options_.limit.within > 0) {
+    goals.begin_verdicts();
+    ended = waves_->refine(goals, effort);
   }
+  goals.begin_widths();
+  return std::max(ended, waves_->refine(goals, effort));
+}
+
+// The host takes the cells over, and goes on.
+void Surveying::refine_store(SurveyResult& result) {
+  take_cells();
   std::vector<Goal> goals = goals_of(options_, pair_);
   if (sided_) add_signed_goals(*sided_, options_, areas_, goals);
   if (options_.normals_within && options_.statistics && !pair_.a.are_points && !pair_.b.are_points)
@@ -129,24 +134,33 @@ void Surveying::run_on_store(SurveyResult& result) {
   if (normals_ && areas_.is_positive()) normals_->add_goals(goals);
   result.ended = std::max(result.ended, refining_.refine(*store_, goals));
   result.field = field_of(store_->reached_of_faces(), store_->highest_of_faces(), pair_);
-  if (sided_) result.sides = sided_->figures({*store_, areas_, known_}, options_);
+  if (sided_) result.sides = sided_->figures({*store_, areas_}, options_);
   result.ended = std::max(result.ended, meter_.ended());
   stored_ = std::make_unique<StoredDistances>(*store_, areas_);
   distances_ = stored_.get();
-  if ((options_.statistics || options_.map) && areas_.is_positive()) add_figures(result);
-  result.ended = std::max(result.ended, meter_.ended());
+  add_figures(result);
+  if (result.statistics && normals_) add_normals(*result.statistics);
+}
+
+void Surveying::take_cells() {
+  if (waves_) {
+    store_.emplace(waves_->store());
+    waves_.reset();
+  } else {
+    store_.emplace(pair_.a, farthest());
+    refining_.bound_faces(*store_);
+  }
+}
+
+void Surveying::add_field(SurveyResult& result) {
+  const std::span<const float> faces = waves_->faces();
+  const size_t count = faces.size() / 2;
+  result.field = field_of(faces.first(count), faces.last(count), pair_);
 }
 
 void Surveying::add_figures(SurveyResult& result) {
-  if (options_.statistics)
-    result.statistics = statistics_of(*distances_, areas_, known_, pair_, options_);
-  if (result.statistics) {
-    const SurveyedArea surface{*store_, areas_, known_};
-    if (options_.max_distance) keep_within(surface, pair_, options_, *result.statistics);
-    add_middles(has_only_shares(options_), *result.statistics);
-    if (normals_) add_normals(*result.statistics);
-  }
-  if (options_.map) add_map(result);
+  if (options_.statistics) result.statistics = statistics_of(*distances_, areas_, pair_, options_);
+  if (result.statistics) add_middles(has_only_shares(options_), *result.statistics);
 }
 
 void Surveying::add_normals(Statistics& statistics) {
@@ -154,8 +168,10 @@ void Surveying::add_normals(Statistics& statistics) {
   normals_->add_figures(*store_, estimates, statistics);
 }
 
+// Figures may be asked for afterwards where the cells are.
 void Surveying::add_map(SurveyResult& result) {
-  result.map = map_of({*store_, areas_, known_}, pair_, options_);
+  if (!store_) store_.emplace(waves_->store());
+  result.map = map_of({*store_, areas_}, pair_, options_);
   if (sided_) add_sides(sided_->of(*store_), *result.map);
   if (has_cheap_sides_)
     add_cheap_sides(

@@ -36,8 +36,11 @@ class Surveying {
  private:
   bool goes_by_waves() const;
   float farthest() const;
-  void run_by_waves(SurveyResult& result);
-  void run_on_store(SurveyResult& result);
+  void refine_by_waves(SurveyResult& result);
+  SurveyEnd refine_faces(size_t effort);
+  void refine_store(SurveyResult& result);
+  void take_cells();
+  void add_field(SurveyResult& result);
   void add_figures(SurveyResult& result);
   void add_normals(Statistics& statistics);
   void add_map(SurveyResult& result);
@@ -49,7 +52,6 @@ class Surveying {
   SurveyMeter meter_;
   Refining refining_;
   const Areas areas_;
-  std::vector<Enclosure> known_;  // of the percentiles, in the frame
   std::optional<WaveSurvey> waves_;
   std::optional<CellStore> store_;
   std::unique_ptr<AreaDistances> stored_;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <iterator>
 
+#include "host/survey/area_table.h"
 #include "host/survey/goals.h"
 
 namespace vkh {
 namespace {
 
-constexpr int kPieces = 5;     // into which a tally cuts each range of a percentile
-constexpr size_t kOfBand = 3;  // thresholds: the band, and a least width before and behind it
+constexpr int kPieces = 5;  // into which a tally cuts each range of a percentile
 
 // A figure's whole width scores 1; it is not 0 where the figure is open, but for shares of
 // percentiles, whose ends are known by the thresholds alone.
@@ -55,6 +55,11 @@ bool FigureGoals::is_open_rms() const {
   return asked_.options.narrows_rms && asked_.is_open(moments_.rms);
 }
 
+std::optional<Threshold> FigureGoals::wanted_moments() const {
+  if (!is_open_mean() && !is_open_rms()) return {};
+  return asked_.most();
+}
+
 // All that is known, and closer about both ends.
 std::vector<Threshold> FigureGoals::thresholds_of(const Quantile& p) const {
   std::vector<Threshold> at;
@@ -78,10 +83,8 @@ std::vector<Threshold> FigureGoals::thresholds() const {
   std::vector<Threshold> at;
   for (size_t i = 0; i < bands_.size(); ++i) {
     if (!is_open(i)) continue;
-    const Band& band = bands_[i];
-    at.push_back(band.at);
-    at.push_back({band.at.down - asked_.least, band.at.down - asked_.least});
-    at.push_back({band.at.up + asked_.least, band.at.up + asked_.least});
+    const auto around = asked_.around(bands_[i].at);
+    at.insert(at.end(), around.begin(), around.end());
   }
   for (const Quantile& p : quantiles_) {
     if (!is_open(p)) continue;
@@ -133,10 +136,10 @@ bool FigureGoals::look(const Tallied& tallied) {
     if (!is_open(i)) continue;
     Band& band = bands_[i];
     band.share = shares[k];
-    band.is_atom = asked_.is_atom(shares[k], shares[k + 1], shares[k + 2]);
-    k += kOfBand;
+    band.is_atom = asked_.is_atom(shares.subspan(k, FiguresAsked::kOfBand));
+    k += FiguresAsked::kOfBand;
   }
-  if (wants_moments()) moments_ = tallied.moments;
+  if (wanted_moments()) moments_ = tallied.moments;
   bool may_be_closer = false;
   for (Quantile& p : quantiles_) {
     if (!is_open(p)) continue;
@@ -163,6 +166,7 @@ bool FigureGoals::are_met() const {
 gpu::SurveyPlan FigureGoals::plan(double whole) const {
   gpu::SurveyPlan plan{};
   plan.of_whole = static_cast<float>(1 / whole);
+  plan.most = edge_of(asked_.most());
   if (is_open_mean())
     plan.mean = static_cast<float>(weight_of_width(FiguresAsked::width(moments_.mean)));
   if (is_open_rms()) plan.square = static_cast<float>(weight_of_width(squares_width(moments_.rms)));
@@ -196,12 +200,6 @@ double FigureGoals::part() const {
     if (is_open(p)) return Scores::kNearlyAll;
   }
   return part;
-}
-
-std::vector<Enclosure> FigureGoals::percentiles() const {
-  std::vector<Enclosure> all;
-  for (const Quantile& p : quantiles_) all.push_back(p.known);
-  return all;
 }
 
 }  // namespace vkh

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,28 +11,22 @@
 
 namespace vkh {
 
-/// The answer of a tally at the thresholds that it was asked, in the frame.
-struct Tallied {
-  std::vector<Enclosure> shares;   ///< of A's area within each
-  Moments moments;                 ///< if they were asked for
-  double lowest = 0, highest = 0;  ///< no distance is less, or more
-};
-
 /// A reason to split cells.
 class WaveGoals {
  public:
   virtual ~WaveGoals() = default;
   /// The thresholds for the next tally. They follow from what is known.
-  virtual std::vector<Threshold> thresholds() const = 0;
-  /// Whether the next tally is asked for moments, too.
-  virtual bool wants_moments() const = 0;
+  virtual std::vector<Threshold> thresholds() const { return {}; }
+  /// Set if the next tally is asked for moments, too: a distance beyond it counts as 0.
+  virtual std::optional<Threshold> wanted_moments() const { return {}; }
   /// Takes in a tally at them. Returns whether another one would narrow a percentile before any
   /// cell is split, since the thresholds were farther apart than the cells' bounds are.
   virtual bool look(const Tallied& tallied) = 0;
   /// Whether splits would gain nothing.
   virtual bool are_met() const = 0;
-  /// How a survey ends where no cell scores and they are not met.
-  virtual SurveyEnd at_rest() const { return SurveyEnd::kBits; }
+  /// How a survey ends where no cell scores and they are not met. `is_stuck`: some cell is in its
+  /// face's way, and no split helps.
+  virtual SurveyEnd at_rest(bool /*is_stuck*/) const { return SurveyEnd::kBits; }
   /// Scores a cell by its part of the widths of all figures that are open.
   virtual gpu::SurveyPlan plan(double whole) const = 0;
   /// So much of all scores is worth a wave's splits.
@@ -53,14 +48,11 @@ class FigureGoals : public WaveGoals {
   FigureGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest);
 
   std::vector<Threshold> thresholds() const override;
-  bool wants_moments() const override { return is_open_mean() || is_open_rms(); }
+  std::optional<Threshold> wanted_moments() const override;
   bool look(const Tallied& tallied) override;
   bool are_met() const override;
   gpu::SurveyPlan plan(double whole) const override;
   double part() const override;
-
-  /// Encloses the percentiles.
-  std::vector<Enclosure> percentiles() const;
 
  private:
   struct Band {

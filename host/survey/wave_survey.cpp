@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -49,8 +50,9 @@ WaveSurvey::WaveSurvey(const SurveyedPair& pair, const Areas& areas, SurveyMeter
       cells_(*pair.cells),
       weights_(weights_of(areas)),
       meter_(meter),
-      unit_(tally_unit(farthest)),
-      highest_(static_cast<double>(farthest)) {
+      unit_(tally_unit(farthest)) {
+  seen_.highest = static_cast<double>(farthest);
+  seen_.moments = {{0, seen_.highest}, {0, seen_.highest}};
   cells_.begin(weights_.of_face, farthest);
   bound_fresh(cells_.count());
 }
@@ -61,54 +63,86 @@ WaveSurvey::WaveSurvey(const SurveyedPair& pair, const Areas& areas, SurveyMeter
 bool WaveSurvey::bound_fresh(size_t count) {
   for (size_t first = 0; first < count;) {
     if (meter_.bounded() > 0 && !meter_.goes_on()) return false;
-    const size_t size = std::min(meter_.batch(), count - first);
+    const size_t size = std::min(meter_.bounds().size(), count - first);
     const bool is_last = first + size == count;
     const bool waits = !is_last || first > 0;
     const double ms = meter_.on_device([&] { cells_.bound(first, size, waits); });
     first += size;
     meter_.note_bounded(size);
-    if (waits) meter_.note_batch(size, ms);
+    if (waits) meter_.bounds().note(size, ms);
   }
   return true;
 }
 
-Tallied WaveSurvey::tally(std::span<const Threshold> thresholds, bool with_moments) {
-  Tallied all;
+// Looks at all cells in submissions, until the caller ends it; returns whether it did not.
+template <class Look>
+bool WaveSurvey::look_at_cells(const Look& look) {
+  for (size_t first = 0; first < cells_.count();) {
+    if (!meter_.is_wanted()) return false;
+    const size_t count = std::min(meter_.looks().size(), cells_.count() - first);
+    const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
+    meter_.looks().note(count, meter_.on_device([&] { look(some); }));
+    first += count;
+  }
+  return true;
+}
+
+bool WaveSurvey::score(const gpu::SurveyPlan& plan) {
+  counts_.assign(gpu::kScoreBins, 0);
+  return look_at_cells([&](const CellRange& some) {
+    const std::span<const uint32_t> counts = cells_.score(plan, some);
+    std::transform(counts.begin(), counts.end(), counts_.begin(), counts_.begin(), std::plus<>());
+  });
+}
+
+bool WaveSurvey::add_up(const gpu::SurveyPlan& plan) {
+  table_ = {};
+  return look_at_cells(
+      [&](const CellRange& some) { add_table(cells_.tally(plan, unit_, some), table_); });
+}
+
+Tallied WaveSurvey::tally(const Tally& asked) {
+  Tallied all = seen_;
   size_t first = 0;
   do {
-    const size_t count = std::min<size_t>(thresholds.size() - first, gpu::kSurveyEdges);
-    const TallyEdges at = edges_of(thresholds.subspan(first, count));
-    gpu::SurveyPlan plan{};
-    plan.edge_count = static_cast<uint32_t>(count);
-    plan.moments = with_moments ? 1 : 0;
-    std::copy(at.edges.begin(), at.edges.end(), std::begin(plan.edges));
-    meter_.on_device([&] {
-      const AreaTable table(cells_.tally(plan, unit_), at, weights_, unit_);
-      const std::vector<Enclosure> shares = table.shares();
-      all.shares.insert(all.shares.end(), shares.begin(), shares.end());
-      if (with_moments) all.moments = table.moments();
-      all.lowest = table.lowest();
-      all.highest = highest_ = table.highest();
-    });
+    const size_t count = std::min<size_t>(asked.at.size() - first, gpu::kSurveyEdges);
+    const std::span<const Threshold> some = asked.at.subspan(first, count);
+    const TallyEdges at = edges_of(some);
+    if (!add_up(plan_of(at, asked.moments))) break;
+    const AreaTable table(table_, at, weights_, unit_);
+    const std::vector<Enclosure> shares = table.shares();
+    shares_.add(some, shares);
+    all.shares.insert(all.shares.end(), shares.begin(), shares.end());
+    if (asked.moments) seen_.moments = table.moments(*asked.moments);
+    seen_.lowest = table.lowest();
+    seen_.highest = table.highest();
     first += count;
-  } while (first < thresholds.size());
+  } while (first < asked.at.size());
+  for (const Threshold& at : asked.at.subspan(first)) all.shares.push_back(shares_.within(at));
+  all.moments = seen_.moments;
+  all.lowest = seen_.lowest;
+  all.highest = seen_.highest;
   return all;
 }
 
 // Splits the cells that matter most, and bounds their parts; otherwise says why not.
 bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
   const gpu::SurveyPlan plan = goals.plan(weights_.whole);
-  std::span<const uint32_t> counts;
-  meter_.on_device([&] { counts = cells_.score(plan); });
+  if (!score(plan)) {
+    ended = meter_.ended();
+    return false;
+  }
   const size_t parts = goals.parts();
   const size_t room = (cells_.most() - cells_.count()) / (parts - 1);
   const size_t left = (effort - std::min(spent_, effort)) / parts;
   const size_t most = std::min({std::max(cells_.count() / parts, kFewestParents), left, room});
-  SurveyChoice choice = choose_cells(counts, goals.part(), most);
+  SurveyChoice choice = choose_cells(counts_, goals.part(), most);
   choice.parts = static_cast<uint32_t>(parts);
   if (choice.count() == 0 || !goals.is_worth(choice.count(), cells_.count())) {
-    const bool is_any = choice.count() == 0 && sum_of_scores(counts) > 0;
-    ended = !is_any ? goals.at_rest() : left == 0 ? SurveyEnd::kEffort : SurveyEnd::kMemory;
+    const bool is_any = choice.count() == 0 && sum_of_scores(counts_) > 0;
+    ended = !is_any     ? goals.at_rest(counts_[0] > 0)
+            : left == 0 ? SurveyEnd::kEffort
+                        : SurveyEnd::kMemory;
     return false;
   }
   if (!meter_.goes_on()) {
@@ -132,8 +166,8 @@ SurveyEnd WaveSurvey::refine(WaveGoals& goals, size_t effort) {
   SurveyEnd ended = SurveyEnd::kMet;
   const auto look = [&] {
     const std::vector<Threshold> at = goals.thresholds();
-    const bool is_asked = !at.empty() || goals.wants_moments();
-    return goals.look(is_asked ? tally(at, goals.wants_moments()) : Tallied());
+    const std::optional<Threshold> moments = goals.wanted_moments();
+    return goals.look(!at.empty() || moments ? tally({at, moments}) : Tallied());
   };
   do {
     while (look()) {
@@ -156,29 +190,27 @@ CellStore WaveSurvey::store() {
   return CellStore(pair_.a, std::move(cells), std::move(bounds), std::move(reached));
 }
 
-std::vector<Enclosure> WaveSurvey::shares_within(std::span<const Threshold> thresholds) {
-  return thresholds.empty() ? std::vector<Enclosure>() : tally(thresholds, false).shares;
+// Returns the largest of one of the faces' two distances.
+double WaveSurvey::largest(size_t which) {
+  const auto first = faces().begin() + static_cast<std::ptrdiff_t>(which * pair_.a.faces.size());
+  return static_cast<double>(*std::max_element(first, first + std::ssize(pair_.a.faces)));
 }
-
-Moments WaveSurvey::moments() { return tally({}, true).moments; }
-
-double WaveSurvey::reached() {
-  const auto middle = faces().begin() + std::ssize(pair_.a.faces);
-  return static_cast<double>(*std::max_element(faces().begin(), middle));
-}
-double WaveSurvey::highest() { return highest_; }
 
 namespace {
 
 // One end of a percentile between two distances: it is above the one and not above the other.
 struct PercentileEnd {
-  double share, low, high;
-  double enough;  // so close is near enough
+  double share, low, likely, high;  // it was at the likely one before cells were split
+  double enough;                    // so close is near enough
   bool is_upper;
 
   static constexpr int kSections = 8;
   bool is_wide() const { return high - low > enough; }
-  double cut(int k) const { return low + (high - low) * k / kSections; }
+  double cut(int k) const {
+    constexpr int kHalf = kSections / 2;
+    return k <= kHalf ? low + (likely - low) * k / kHalf
+                      : likely + (high - likely) * (k - kHalf) / kHalf;
+  }
   bool is_reached(const Enclosure& within) const {
     return is_upper ? within.lower >= share : within.upper >= share;
   }
@@ -191,6 +223,7 @@ struct PercentileEnd {
         low = std::max(low, before.cut(k));
       }
     }
+    likely = low + (high - low) / 2;
   }
 };
 
@@ -202,10 +235,11 @@ std::vector<Enclosure> WaveSurvey::percentiles(const PercentileSearch& search) {
   constexpr double kOfWidth = 1.0 / 32;  // nearer ends make no interval much narrower
   std::vector<PercentileEnd> ends;
   for (size_t i = 0; i < search.shares.size(); ++i) {
-    const Enclosure known = search.known.empty() ? Enclosure{0, highest()} : search.known[i];
-    const double enough = std::max(search.resolution, kOfWidth * FiguresAsked::width(known));
-    ends.push_back({search.shares[i], known.lower, known.upper, enough, false});
-    ends.push_back({search.shares[i], known.lower, known.upper, enough, true});
+    const double share = search.shares[i];
+    const SharesSeen::Ends known = shares_.percentile(share, 0, highest());
+    const double enough = std::max(search.resolution, kOfWidth * (known.high - known.low));
+    ends.push_back({share, known.low, known.first, known.high, enough, false});
+    ends.push_back({share, known.low, known.last, known.high, enough, true});
   }
   for (int pass = 0; pass < kMostTallies; ++pass) {
     std::vector<Threshold> at;
@@ -214,7 +248,7 @@ std::vector<Enclosure> WaveSurvey::percentiles(const PercentileSearch& search) {
         at.push_back({e.cut(k), e.cut(k)});
     }
     if (at.empty()) break;
-    const std::vector<Enclosure> shares = shares_within(at);
+    const std::vector<Enclosure> shares = tally({at}).shares;
     constexpr size_t kCuts = PercentileEnd::kSections - 1;
     size_t first = 0;
     for (PercentileEnd& e : ends) {

@@ -11,6 +11,7 @@
 #include "host/survey/area_figures.h"
 #include "host/survey/area_table.h"
 #include "host/survey/cell_store.h"
+#include "host/survey/shares_seen.h"
 #include "host/survey/survey_meter.h"
 #include "host/survey/wave_goals.h"
 
@@ -38,16 +39,20 @@ class WaveSurvey : public AreaDistances {
   /// No distance is above it, in the frame.
   double farthest() const { return std::ldexp(1.0, unit_ - 127); }
 
-  std::vector<Enclosure> shares_within(std::span<const Threshold> thresholds) override;
+  /// Tells what earlier tallies did once the caller has called the survey off.
+  Tallied tally(const Tally& asked) override;
   std::vector<Enclosure> percentiles(const PercentileSearch& search) override;
-  Moments moments() override;
-  double reached() override;
-  double highest() override;
+  double reached() override { return largest(0); }
+  double highest() override { return largest(1); }
 
  private:
   bool bound_fresh(size_t count);
   bool split(WaveGoals& goals, size_t effort, SurveyEnd& ended);
-  Tallied tally(std::span<const Threshold> thresholds, bool with_moments);
+  template <class Look>
+  bool look_at_cells(const Look& look);
+  bool score(const gpu::SurveyPlan& plan);
+  bool add_up(const gpu::SurveyPlan& plan);
+  double largest(size_t which);
 
   const SurveyedPair& pair_;
   SurveyCells& cells_;
@@ -55,7 +60,10 @@ class WaveSurvey : public AreaDistances {
   SurveyMeter& meter_;
   const int unit_;
   size_t spent_ = 0;
-  double highest_;            // at the last tally, in the frame
+  std::vector<uint32_t> counts_;  // of the last score's bins
+  gpu::SurveyTable table_;        // of the last tally
+  SharesSeen shares_;
+  Tallied seen_;              // all but shares
   std::vector<float> faces_;  // none until they are asked for
 };
 

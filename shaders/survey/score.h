@@ -30,6 +30,12 @@ VKH_FN float widest(CellBounds b) {
   return min(affine, b.highest - lowest);
 }
 
+// So much a cell is in its face's way: by it the face may be farther than it is known to reach.
+VKH_FN float face_score(float highest, float reached, float tolerance, float within, float beyond) {
+  float above = min((highest - reached) - tolerance, highest - within);
+  return choose(reached > beyond, 0.0f, max(above, 0.0f));
+}
+
 // The split of a cell into four as a code of math/dyadic.h: it is halved at its longest edge, and
 // so are the halves, so that cells are halves of halves of their face. kSplitNone: the bits have
 // run out.

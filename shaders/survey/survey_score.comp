@@ -1,5 +1,6 @@
-// Scores all cells by the plan. In: cells, bounds, weights, plan. Out: keys, the bins of the
-// cells' scores, and histogram, how many cells each bin has. A workgroup goes over many cells.
+// Scores cells by the plan. In: cells, bounds, weights, faces_reached (floats as bits), plan. Out:
+// keys, the bins of the cells' scores, and histogram: how many cells each bin has, and its bin 0
+// how many are in their face's way although no split helps. A workgroup goes over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -12,6 +13,7 @@ layout(scalar, binding = 2) readonly buffer Weights { Wide weights[]; };
 layout(scalar, binding = 3) readonly buffer Plan { SurveyPlan plan; };
 layout(scalar, binding = 4) writeonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 5) buffer Histogram { uint histogram[]; };
+layout(scalar, binding = 6) readonly buffer FacesReached { uint faces_reached[]; };
 layout(scalar, push_constant) uniform PushBlock { SurveyPush push; };
 
 #include "shaders/survey/score.h"
@@ -30,8 +32,9 @@ float score_of(CellBounds of_cell) {
   if (!is_open) return 0.0;
   TallyBounds b = tally_bounds(of_cell);
   float score = 0.0;
-  if (plan.mean > 0.0) score += plan.mean * mean_width(b);
-  if (plan.square > 0.0) score += plan.square * square_width(b);
+  TallyBounds kept = within_most(b, plan.most);
+  if (plan.mean > 0.0) score += plan.mean * mean_width(kept);
+  if (plan.square > 0.0) score += plan.square * square_width(kept);
   for (uint i = 0u; i < plan.open_count; ++i)
     score += plan.shares[i] * undecided_share(b, plan.open[i]);
   return score;
@@ -42,19 +45,32 @@ float map_score(CellBounds b, float lowest) {
   return max(widest(b) - plan.map_step, 0.0);
 }
 
-uint key_of(uint i) {
+float score_for_face(uint i, float highest) {
+  if (plan.faces == 0u) return 0.0;
+  return face_score(highest, uintBitsToFloat(faces_reached[cells[i].face]), plan.face_tolerance,
+                    plan.face_within, plan.face_beyond);
+}
+
+struct Key {
+  uint bin;
+  bool is_stuck;  // in its face's way, and no split helps
+};
+
+Key key_of(uint i) {
   CellBounds b = bounds[i];
   float lowest = max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0);
-  if (b.highest - lowest <= kScoreFloor) return 0u;
+  float of_face = score_for_face(i, b.highest);
+  Key none = Key(0u, of_face > 0.0);
+  if (b.highest - lowest <= kScoreFloor) return none;
   float score = score_of(b);
   float of_map = map_score(b, lowest);
-  if (!(score > 0.0) && !(of_map > 0.0)) return 0u;
+  if (!(score > 0.0) && !(of_map > 0.0) && !(of_face > 0.0)) return none;
   Cell cell = cells[i];
   Bary3 at = unpack_corners(cell.corners);
-  if (!has_quarters(at)) return 0u;
+  if (!has_quarters(at)) return none;
   float area = area_of(cell, at);
   if (area > plan.map_area) score += of_map;
-  return score_bin(score * area);
+  return Key(score_bin(score * area + of_face), false);
 }
 
 void main() {
@@ -62,10 +78,10 @@ void main() {
   for (uint bin = lane; bin < kScoreBins; bin += kGroupSize) counts[bin] = 0u;
   barrier();
   uint stride = kGroupSize * push.groups;
-  for (uint i = item_index(); i < push.cells; i += stride) {
-    uint key = key_of(i);
-    keys[i] = key;
-    if (key > 0u) atomicAdd(counts[key], 1u);
+  for (uint i = push.first + item_index(); i < push.end; i += stride) {
+    Key key = key_of(i);
+    keys[i] = key.bin;
+    if (key.bin > 0u || key.is_stuck) atomicAdd(counts[key.bin], 1u);
   }
   barrier();
   for (uint bin = lane; bin < kScoreBins; bin += kGroupSize) {

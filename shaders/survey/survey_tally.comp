@@ -1,4 +1,4 @@
-// Adds up what all cells tell of A: areas within the plan's edges, means and mean squares. In:
+// Adds up what cells tell of A: areas within the plan's edges, means and mean squares. In:
 // cells, bounds, weights, plan. Out: table, to which is added. A workgroup goes over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -109,13 +109,13 @@ void main() {
   sums.mean_lower = sums.mean_upper = sums.square_lower = sums.square_upper = uvec2(0u);
   uint most = 0u, not_least = 0u;
   uint stride = kGroupSize * push.groups;
-  for (uint i = item_index(); i < push.cells; i += stride) {
+  for (uint i = push.first + item_index(); i < push.end; i += stride) {
     Cell cell = cells[i];
     Wide of_face = weights[cell.face];
     CellWeight w =
         cell_weight(uvec2(of_face.low, of_face.high), halvings_of(unpack_corners(cell.corners)));
     TallyBounds b = tally_bounds(bounds[i]);
-    if (plan.moments != 0u) add_moments(b, w, sums);
+    if (plan.moments != 0u) add_moments(within_most(b, plan.most), w, sums);
     most = max(most, bits_of(b.highest));
     not_least = max(not_least, ~bits_of(lowest_of(b)));
     add_within(b, w);

@@ -87,6 +87,18 @@ VKH_FN TallyBounds tally_bounds(CellBounds b) {
 // No point of the cell is nearer.
 VKH_FN float lowest_of(TallyBounds b) { return max(b.below.least, 0.0f); }
 
+// The bounds of what counts where a distance beyond `most` counts as 0: of a cell that is surely
+// within it, all; of one that surely is not, nothing. Of one that may be, nothing is known from
+// below, and from above no distance that counts exceeds `most`. It serves moments alone.
+VKH_FN TallyBounds within_most(TallyBounds b, SurveyEdge most) {
+  if (b.highest <= most.down) return b;
+  float cap = choose(lowest_of(b) > most.up, 0.0f, max(most.up, 0.0f));
+  b.lower = vec3(0.0f, 0.0f, 0.0f);
+  b.mean_upper = min(b.mean_upper, cap);
+  b.square_upper = min(b.square_upper, choose(cap > 0.0f, round_up(cap * cap, 1.0f), 0.0f));
+  return b;
+}
+
 // The share of the cell that is surely within a distance, and the share that may be.
 VKH_FN float surely_within(TallyBounds b, float down) {
   return choose(down >= b.highest, 1.0f, share_within(b.above, down).down);

@@ -61,10 +61,10 @@ struct SurveyBench {
   VkhSurveyBegin begin(float farthest) const { return {given.handle(), 65536, farthest}; }
   void plan(const gpu::SurveyPlan& plan) { std::memcpy(given.mapped(), &plan, sizeof(plan)); }
   VkhSurveyScore score(uint32_t cells) const {
-    return {cells, given.handle(), 0, found.handle(), 0};
+    return {0, cells, given.handle(), 0, found.handle(), 0};
   }
   VkhSurveyTally tally(uint32_t cells, int unit) const {
-    return {cells, unit, given.handle(), 0, found.handle(), 16384};
+    return {0, cells, unit, given.handle(), 0, found.handle(), 16384};
   }
   template <class T>
   std::vector<T> read(size_t offset, size_t count) const {
@@ -89,6 +89,7 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
     gpu::SurveyPlan plan{};
     plan.of_whole = 1.0f / (static_cast<float>(kWeight) * static_cast<float>(faces));
     plan.mean = 1;
+    plan.most = {8, 8};
     plan.edge_count = 2;
     plan.edges[0] = {0, 0};
     plan.edges[1] = {8, 8};

@@ -251,89 +251,6 @@ TEST_CASE("without area there are bounds of faces, and no statistics") {
   CHECK(r.field.face_count() == 1);
 }
 
-/// A device of double arithmetic for a B that is the plane z = 0 and an A that is wholly above it,
-/// or below: the distance is |z|. Bounds are as wide as a cell's corners are apart, times `doubt`,
-/// so that there are always cells to split, and many scores are equal.
-class PlaneDevice {
- public:
-  PlaneDevice(const Mesh& a, double doubt) : a_(a), doubt_(doubt) {}
-
-  void operator()(const CellBatch& batch) {
-    ++submissions;
-    most = std::max(most, batch.bounds.size());
-    for (size_t i = 0; i < batch.bounds.size(); ++i) {
-      gpu::Cell cell{};
-      if (batch.cells.empty()) {
-        set_corners(cell, lib::whole_root());
-        cell.face = batch.first + static_cast<uint32_t>(i);
-      } else {
-        cell = batch.cells[i];
-        asked.push_back(cell);
-      }
-      batch.bounds[i] = bounds_of(cell);
-    }
-  }
-
-  std::vector<gpu::Cell> asked;  ///< all halves, in the order in which they were asked about
-  size_t submissions = 0, most = 0;
-
- private:
-  gpu::CellBounds bounds_of(const gpu::Cell& cell) const {
-    const lib::Bary3 t = corners_of(cell);
-    const std::array<double, 3> z{height(cell.face, t.a), height(cell.face, t.b),
-                                  height(cell.face, t.c)};
-    const glm::dvec2 side = (glm::dvec2(t.b) - glm::dvec2(t.a)) * 0x1p-20;
-    const double off = doubt_ * glm::length(side);
-    const auto low = [&](size_t k) {
-      return static_cast<float>(std::max(z[k] - off, 0.0) * 0.999);
-    };
-    const auto high = [&](size_t k) { return static_cast<float>((z[k] + off) * 1.001); };
-    gpu::CellBounds b{};
-    b.lower_a = low(0), b.lower_b = low(1), b.lower_c = low(2);
-    b.upper_a = high(0), b.upper_b = high(1), b.upper_c = high(2);
-    b.highest = std::max({b.upper_a, b.upper_b, b.upper_c});
-    b.reached = std::max({b.lower_a, b.lower_b, b.lower_c});
-    b.mean_upper = (b.upper_a + b.upper_b + b.upper_c) / 3 * 1.001f;
-    b.square_upper = b.highest * b.highest * 1.001f;
-    return b;
-  }
-
-  double height(uint32_t face, const glm::uvec2& at) const {
-    const glm::uvec3 f = a_.faces[face];
-    const double x = at.x * 0x1p-20, y = at.y * 0x1p-20;
-    return std::abs((1 - x - y) * a_.vertices[f.x].z + x * a_.vertices[f.y].z +
-                    y * a_.vertices[f.z].z);
-  }
-
-  const Mesh& a_;
-  const double doubt_;
-};
-
-struct OnPlane {
-  SurveyResult result;
-  std::vector<gpu::Cell> asked;
-  size_t submissions = 0, most = 0;
-};
-
-/// Surveys on the device above, in place of a driver's.
-OnPlane on_plane(const Mesh& a, const SurveyOptions& options) {
-  const Mesh b = square_patch(2, 0.0);
-  OnPlane out;
-  PlaneDevice device(a, 0.05);
-  const SurveyedPair pair{.a = a,
-                          .b = b,
-                          .frame = {},
-                          .displacement = 0,
-                          .farthest = 10,
-                          .on_cpu = true,
-                          .bound = std::ref(device)};
-  survey_with(options, out.result)(pair);
-  out.asked = device.asked;
-  out.submissions = device.submissions;
-  out.most = device.most;
-  return out;
-}
-
 /// Compares to the last bit.
 bool same(double x, double y) { return std::bit_cast<uint64_t>(x) == std::bit_cast<uint64_t>(y); }
 bool same(const Enclosure& x, const Enclosure& y) {
@@ -380,10 +297,6 @@ struct Threads {
   Threads& operator=(const Threads&) = delete;
 };
 
-bool same_cell(const gpu::Cell& x, const gpu::Cell& y) {
-  return std::memcmp(&x, &y, sizeof(x)) == 0;
-}
-
 // Its two halves are mirrored, so that many cells have the same score: which of them are split must
 // follow from their numbers.
 Mesh lifted_roof() {
@@ -392,80 +305,69 @@ Mesh lifted_roof() {
   return a;
 }
 
-TEST_CASE("threads and the sizes of batches change no bit, and no cell that is asked about") {
-  const Mesh a = lifted_roof();
-  SurveyOptions options = all_of_it({0.14, 0.2});
-  options.face_tolerance = options.mean_tolerance = 1e-4;
-  options.effort = 200000;  // some blocks of cells
-  const OnPlane first = on_plane(a, options);
-  CHECK(first.result.ended == SurveyEnd::kEffort);
-  CHECK(first.asked.size() == 200000);
-  CHECK(first.result.cells > 3 * kBlock);
-  size_t sizes = 0;
-  for (const size_t threads : std::initializer_list<size_t>{1, 2, 7}) {
-    const Threads limit(threads);
-    for (const double submission_ms : {1e-9, 0.05, 1e9}) {
-      CAPTURE(threads);
-      CAPTURE(submission_ms);
-      options.submission_ms = submission_ms;
-      const OnPlane other = on_plane(a, options);
-      check_same(first.result, other.result);
-      REQUIRE(other.asked.size() == first.asked.size());
-      CHECK(std::equal(first.asked.begin(), first.asked.end(), other.asked.begin(), same_cell));
-      sizes += other.most != first.most;
-    }
-  }
-  CHECK(sizes > 0);
-}
-
 TEST_CASE("a device's survey is the same with other threads and other batches") {
-  const Mesh a = height_field(40, 1), b = height_field(40, 3);
-  SurveyOptions options = all_of_it({0.1});
-  options.mean_tolerance = 1e-5;  // the effort ends it
-  options.effort = 70000;
-  const Threads one(1);
-  const SurveyResult first = surveyed(a, b, options);
-  CHECK(first.ended == SurveyEnd::kEffort);
-  CHECK(first.cells > kBlock);
-  for (const size_t threads : std::initializer_list<size_t>{2, 7}) {
-    const Threads limit(threads);
-    options.submission_ms = threads == 2 ? 1 : 1000;
-    check_same(first, surveyed(a, b, options));
-  }
+  const Mesh roof = lifted_roof(), plane = square_patch(2, 0.0);
+  const Mesh hills = height_field(40, 1), others = height_field(40, 3);
+  const auto check = [](const Mesh& a, const Mesh& b, bool goes_on_in_the_host) {
+    CAPTURE(goes_on_in_the_host);
+    SurveyOptions options = all_of_it({0.14, 0.2});
+    options.mean_tolerance = options.face_tolerance = 1e-6;  // the effort ends it
+    options.effort = 70000;
+    if (goes_on_in_the_host) options.normals_within = 20;
+    options.cosine_tolerance = options.agreeing_tolerance = 1e-9;
+    const Threads one(1);
+    const SurveyResult first = surveyed(a, b, options);
+    CHECK(first.ended == SurveyEnd::kEffort);
+    CHECK(first.cells > kBlock);
+    for (const size_t threads : std::initializer_list<size_t>{2, 7}) {
+      const Threads limit(threads);
+      options.submission_ms = threads == 2 ? 1 : 1000;
+      check_same(first, surveyed(a, b, options));
+    }
+  };
+  check(roof, plane, false);
+  check(hills, others, false);
+  check(hills, others, true);
 }
 
-TEST_CASE("the effort is what is bounded besides the faces, or one less") {
-  const Mesh a = lifted_roof();
+TEST_CASE("the effort is kept where the host goes on") {
+  const Mesh a = height_field(12, 1), b = height_field(12, 3);
   SurveyOptions options = all_of_it();
+  options.normals_within = 20;
   options.face_tolerance = options.mean_tolerance = 1e-6;
+  options.cosine_tolerance = options.agreeing_tolerance = 1e-9;
   for (const size_t effort : std::initializer_list<size_t>{0, 1, 2, 999, 1000, 20001}) {
     CAPTURE(effort);
     options.effort = effort;
-    const OnPlane r = on_plane(a, options);
-    CHECK(r.result.ended == SurveyEnd::kEffort);
-    CHECK(r.result.effort == effort);
-    CHECK(r.result.bounded == a.faces.size() + effort / 2 * 2);
-    CHECK(r.result.cells == a.faces.size() + effort / 2);
-    CHECK(r.asked.size() == effort / 2 * 2);
+    const SurveyResult r = surveyed(a, b, options);
+    CHECK(r.ended == SurveyEnd::kEffort);
+    CHECK(r.effort == effort);
+    CHECK(r.bounded == a.faces.size() + effort / 2 * 2);
   }
 }
 
 TEST_CASE("a survey says why it ended") {
-  const Mesh a = lifted_roof();
+  const Mesh a = lifted_roof(), b = square_patch(2, 0.0);
   SurveyOptions options = all_of_it();
   options.face_tolerance = options.mean_tolerance = 1e-6;
   options.time_limit_s = 0;
-  CHECK(on_plane(a, options).result.ended == SurveyEnd::kTime);
+  CHECK(surveyed(a, b, options).ended == SurveyEnd::kTime);
   options.goes_on = [](size_t) { return false; };
-  CHECK(on_plane(a, options).result.ended == SurveyEnd::kCancelled);
+  CHECK(surveyed(a, b, options).ended == SurveyEnd::kCancelled);
   options = all_of_it();
   options.face_tolerance = options.mean_tolerance = 0.1;
-  CHECK(on_plane(a, options).result.ended == SurveyEnd::kMet);
   CHECK(!options.effort);
-  CHECK(on_plane(a, options).result.effort == default_effort(true));
+  const SurveyResult met = surveyed(a, b, options);
+  CHECK(met.ended == SurveyEnd::kMet);
+  CHECK((met.effort == default_effort(true) || met.effort == default_effort(false)));
   const Mesh segment = make_mesh("a segment", {{0, 0, 1}, {1, 0, 1}}, {{0, 1, 1}});
   options.faces = false;
-  CHECK(on_plane(segment, options).result.ended == SurveyEnd::kBits);
+  CHECK(surveyed(segment, b, options).ended == SurveyEnd::kBits);
+  options.faces = true;
+  options.statistics = false;
+  CHECK(surveyed(segment, b, options).ended == SurveyEnd::kMet);
+  options.face_tolerance = 1e-12;
+  CHECK(surveyed(square_patch(1, 0.25), b, options).ended == SurveyEnd::kBits);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host/base/parallel.h"
+#include "host/survey/shares_seen.h"
 #include "host/survey/survey_with.h"
 #include "shaders/survey/score.h"
 #include "tests/shapes/hard_pairs.h"
@@ -89,6 +90,49 @@ TEST_CASE("weights add up to nearly what can be, and their error covers what is 
   CHECK(off <= weights.error);
 }
 
+/// Compares to the last bit.
+bool same(const Enclosure& x, const Enclosure& y) {
+  return std::bit_cast<uint64_t>(x.lower) == std::bit_cast<uint64_t>(y.lower) &&
+         std::bit_cast<uint64_t>(x.upper) == std::bit_cast<uint64_t>(y.upper);
+}
+
+TEST_CASE("what was seen of shares encloses any other, and the ends of percentiles") {
+  // The share within d is d squared, up to 1, and is seen at random distances, more or less well.
+  Random random(8);
+  const auto truth = [](double d) { return std::min(std::max(d, 0.0) * std::max(d, 0.0), 1.0); };
+  SharesSeen seen;
+  CHECK(same(seen.within({0.5, 0.5}), {0, 1}));
+  for (int round = 0; round < 50; ++round) {
+    std::vector<Threshold> at;
+    std::vector<Enclosure> shares;
+    for (int i = 0; i < 20; ++i) {
+      const double d = random.range(-0.1, 1.2), doubt = random.unit() / (1 + round);
+      at.push_back({d - 0.001, d + 0.001});
+      shares.push_back({std::max(truth(d - 0.001) - doubt * random.unit(), 0.0),
+                        std::min(truth(d + 0.001) + doubt * random.unit(), 1.0)});
+    }
+    seen.add(at, shares);
+    for (size_t i = 0; i < at.size(); ++i) {
+      CHECK(seen.within(at[i]).lower >= shares[i].lower);
+      CHECK(seen.within(at[i]).upper <= shares[i].upper);
+    }
+    for (int i = 0; i < 100; ++i) {
+      const double d = random.range(-0.2, 1.3), p = random.unit();
+      const Enclosure share = seen.within({d, d});
+      CHECK(share.lower <= truth(d));
+      CHECK(share.upper >= truth(d));
+      const SharesSeen::Ends ends = seen.percentile(p, 0, 1.2);
+      CHECK(ends.low <= std::sqrt(p));
+      CHECK(ends.high >= std::sqrt(p));
+      CHECK(ends.low <= ends.first);
+      CHECK(ends.low <= ends.last);
+      CHECK(std::max(ends.first, ends.last) <= ends.high);
+    }
+  }
+  const SharesSeen::Ends ends = seen.percentile(0.5, 0, 1.2);
+  CHECK(ends.high - ends.low < 0.1);
+}
+
 /// Runs a survey of its own on the pair, while it lies on the device.
 void on_device(const Mesh& a, const Mesh& b, const UsePair& survey) {
   hold_pair(solver(), {a, b}, {}, survey);
@@ -128,8 +172,8 @@ TEST_CASE("a tally is what the cells say, as near as floats tell, and outside of
       waves.refine(goals, 5000);
       std::vector<Threshold> at;
       for (int k = 0; k < 600; ++k) at.push_back({k / 400.0, k / 400.0 + 1e-4});  // three tallies
-      const std::vector<Enclosure> shares = waves.shares_within(at);
-      const Moments moments = waves.moments();
+      constexpr double kAny = std::numeric_limits<double>::infinity();
+      const auto [shares, moments, lowest, highest] = waves.tally({at, Threshold{kAny, kAny}});
       const CellStore cells = waves.store();
       CHECK(cells.count() > a.faces.size());
       for (size_t k = 0; k < at.size(); k += 7) {
@@ -155,11 +199,6 @@ TEST_CASE("a tally is what the cells say, as near as floats tell, and outside of
   check(soup(1, 60), soup(2, 90));
 }
 
-/// Compares to the last bit.
-bool same(const Enclosure& x, const Enclosure& y) {
-  return std::bit_cast<uint64_t>(x.lower) == std::bit_cast<uint64_t>(y.lower) &&
-         std::bit_cast<uint64_t>(x.upper) == std::bit_cast<uint64_t>(y.upper);
-}
 void check_same(const SurveyResult& x, const SurveyResult& y) {
   CHECK(x.cells == y.cells);
   CHECK(x.bounded == y.bounded);
@@ -227,16 +266,17 @@ class ShortOfRoom : public SurveyCells {
   }
   size_t count() const override { return cells_.count(); }
   size_t most() const override { return std::min(most_, cells_.most()); }
-  std::span<const uint32_t> score(const gpu::SurveyPlan& plan) override {
-    return cells_.score(plan);
+  std::span<const uint32_t> score(const gpu::SurveyPlan& plan, const CellRange& some) override {
+    return cells_.score(plan, some);
   }
   bool split(const SurveyChoice& choice) override {
     CHECK(count() + 3 * choice.count() <= most_);
     return splits_-- > 0 && cells_.split(choice);
   }
   void bound(size_t first, size_t count, bool wait) override { cells_.bound(first, count, wait); }
-  const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit) override {
-    return cells_.tally(plan, unit);
+  const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit,
+                                const CellRange& some) override {
+    return cells_.tally(plan, unit, some);
   }
   std::vector<float> faces() override { return cells_.faces(); }
   void read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) override {
@@ -310,7 +350,7 @@ TEST_CASE("hard pairs: figures by waves meet those of the host's cells") {
     SurveyOptions options = figures({0.01, 0.1, 1});
     options.effort = 20000;
     const SurveyResult waves = surveyed(hard.pair.a, hard.pair.b, options);
-    options.map.emplace();  // which the host refines
+    options.normals_within = 30;  // for which the host refines
     options.effort = 40000;
     const SurveyResult host = surveyed(hard.pair.a, hard.pair.b, options);
     REQUIRE(waves.statistics.has_value() == host.statistics.has_value());

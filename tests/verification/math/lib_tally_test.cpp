@@ -131,6 +131,71 @@ TEST_CASE("tally.h: a cell is within no distance below its lowest, and within it
   CHECK(lib::perhaps_within(t, -0.6f) == 0);
 }
 
+TEST_CASE("tally.h: moments within a distance enclose those of what is within it") {
+  Random random(6);
+  for (int i = 0; i < kCases; ++i) {
+    // d is an affine function over the cell, known to `doubt`.
+    const auto any = [&] { return static_cast<float>(random.range(0.01, 2)); };
+    const std::array<float, 3> d{any(), any(), any()};
+    const auto doubt = static_cast<float>(random.range(0, 0.2));
+    gpu::CellBounds b{};
+    b.lower_a = d[0] - doubt, b.lower_b = d[1] - doubt, b.lower_c = d[2] - doubt;
+    b.upper_a = d[0] + doubt, b.upper_b = d[1] + doubt, b.upper_c = d[2] + doubt;
+    b.highest = std::max({b.upper_a, b.upper_b, b.upper_c});
+    b.mean_upper = (b.upper_a + b.upper_b + b.upper_c) / 3 * 1.00001f;
+    b.square_upper = b.highest * b.mean_upper;
+    const auto most = static_cast<float>(random.range(-0.1, 2.3));
+    const float width = random.below(2) != 0 ? 0 : 0.01f;
+    const gpu::SurveyEdge edge{most - width, most + width};
+    const lib::TallyBounds t = lib::within_most(lib::tally_bounds(b), edge);
+    const auto size = [&](double of) { return of <= static_cast<double>(most) ? of : 0.0; };
+    double mean = 0, square = 0;
+    constexpr int kSteps = 12;
+    for (int u = 0; u < kSteps; ++u) {
+      for (int v = 0; u + v < kSteps; ++v) {
+        const double x = (u + 1.0 / 3) / kSteps, y = (v + 1.0 / 3) / kSteps;
+        const double at = size((1 - x - y) * static_cast<double>(d[0]) +
+                               x * static_cast<double>(d[1]) + y * static_cast<double>(d[2]));
+        mean = std::max(mean, at);
+        square = std::max(square, at * at);
+      }
+    }
+    const double highest = static_cast<double>(t.mean_upper);
+    const bool is_cut = b.highest > edge.down;
+    if (is_cut) {
+      CHECK(t.lower.x == 0);
+      CHECK(t.lower.y == 0);
+      CHECK(t.lower.z == 0);
+      // Any part of it may be within: no less than what a part at the limit has, or the mean of
+      // all.
+      if (mean > 0)
+        CHECK(highest >= std::min(mean, static_cast<double>(b.mean_upper)) * (1 - 1e-6));
+      if (mean > 0)
+        CHECK(static_cast<double>(t.square_upper) >=
+              std::min(square, static_cast<double>(b.square_upper)) * (1 - 1e-6));
+      CHECK(t.mean_upper <= std::max(edge.up, 0.0f));
+    } else {
+      CHECK(t.mean_upper == lib::tally_bounds(b).mean_upper);
+      CHECK(t.lower.x == b.lower_a);
+    }
+    if (lib::lowest_of(lib::tally_bounds(b)) > edge.up) {
+      CHECK(t.mean_upper == 0);
+      CHECK(t.square_upper == 0);
+    }
+  }
+}
+
+TEST_CASE("score.h: a cell is in its face's way above what the face reaches, or above a limit") {
+  constexpr float kAny = 3e38f;
+  CHECK(lib::face_score(1.0f, 0.5f, 0.25f, -kAny, kAny) == 0.25f);
+  CHECK(lib::face_score(1.0f, 0.75f, 0.25f, -kAny, kAny) == 0);
+  CHECK(lib::face_score(1.0f, 0.9f, 0.25f, -kAny, kAny) == 0);
+  CHECK(lib::face_score(1.0f, 0.5f, -kAny, 0.875f, 2.0f) == 0.125f);
+  CHECK(lib::face_score(1.0f, 0.5f, -kAny, 1.0f, 2.0f) == 0);
+  CHECK(lib::face_score(1.0f, 0.5f, -kAny, 0.875f, 0.25f) == 0);
+  CHECK(lib::face_score(1.0f, 0.5f, -kAny, 0.875f, 0.5f) == 0.125f);
+}
+
 TEST_CASE("score.h: bins ascend with scores, eight an octave, and nought has none") {
   CHECK(lib::score_bin(0.0f) == 0);
   CHECK(lib::score_bin(0x1p-130f) == 0);

@@ -1,0 +1,34 @@
+#include "host/survey/face_goals.h"
+
+#include "host/survey/area_table.h"
+
+namespace vkh {
+namespace {
+
+constexpr float kAnyDistance = 3e38f;
+
+}  // namespace
+
+// A width in the frame. What a face's two distances are apart by is rounded to a float.
+double FaceGoals::tolerance() const {
+  const SurveyOptions& options = asked_.options;
+  const double wanted = options.field_tolerance > 0 ? asked_.frame.to_frame(options.field_tolerance)
+                                                    : options.face_tolerance * distances_.reached();
+  return (wanted - 2 * asked_.displacement) * (1 - 1e-6);
+}
+
+gpu::SurveyPlan FaceGoals::plan(double /*whole*/) const {
+  gpu::SurveyPlan plan{};
+  plan.faces = 1;
+  plan.face_within = plan.face_tolerance = -kAnyDistance;
+  plan.face_beyond = kAnyDistance;
+  if (is_by_verdict_) {
+    plan.face_within = edge_of(asked_.threshold(asked_.options.limit.within)).down;
+    plan.face_beyond = edge_of(asked_.threshold(asked_.options.limit.beyond)).up;
+  } else {
+    plan.face_tolerance = static_cast<float>(tolerance());
+  }
+  return plan;
+}
+
+}  // namespace vkh

@@ -1,0 +1,34 @@
+// What tallies have told of the shares of A's area within distances. A share only grows with the
+// distance, and a survey only narrows it: so what was seen at one distance tells of all others, and
+// holds for ever.
+#pragma once
+
+#include <map>
+#include <span>
+
+#include "host/survey/statistics.h"
+
+namespace vkh {
+
+class SharesSeen {
+ public:
+  /// Notes what was proven of the share within each threshold.
+  void add(std::span<const Threshold> thresholds, std::span<const Enclosure> shares);
+
+  /// Encloses the share within a threshold.
+  Enclosure within(const Threshold& at) const;
+
+  /// What is known of a percentile: it is above `low`, and not above `high`. The cells may have
+  /// proven more: that it is above what is less than `first`, and not above what is more than
+  /// `last`. Without bounds these are `least` and `most`.
+  struct Ends {
+    double low, first, last, high;
+  };
+  Ends percentile(double share, double least, double most) const;
+
+ private:
+  std::map<double, double> surely_;   // lower ends of shares by distances, both ascending
+  std::map<double, double> perhaps_;  // upper ends
+};
+
+}  // namespace vkh
