@@ -1,6 +1,7 @@
 #include "host/survey/wave_survey.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
@@ -201,11 +202,10 @@ namespace {
 // One end of a percentile between two distances: it is above the one and not above the other.
 struct PercentileEnd {
   double share, low, likely, high;  // it was at the likely one before cells were split
-  double enough;                    // so close is near enough
   bool is_upper;
 
   static constexpr int kSections = 8;
-  bool is_wide() const { return high - low > enough; }
+  double width() const { return high - low; }
   double cut(int k) const {
     constexpr int kHalf = kSections / 2;
     return k <= kHalf ? low + (likely - low) * k / kHalf
@@ -227,38 +227,48 @@ struct PercentileEnd {
   }
 };
 
+// Both ends of each percentile.
+using PercentileEnds = std::vector<std::array<PercentileEnd, 2>>;
+
+// The ends that are known worse than would do: nearer ones make no interval much narrower.
+std::vector<PercentileEnd*> wide_ends(PercentileEnds& ends, double resolution) {
+  constexpr double kOfWidth = 1.0 / 32;
+  std::vector<PercentileEnd*> wide;
+  for (auto& [lower, upper] : ends) {
+    const double enough = std::max(resolution, kOfWidth * (upper.high - lower.low));
+    for (PercentileEnd* end : {&lower, &upper}) {
+      if (end->width() > enough) wide.push_back(end);
+    }
+  }
+  return wide;
+}
+
 }  // namespace
 
 // Each pass cuts what is left of the ends. No cell is split between two.
 std::vector<Enclosure> WaveSurvey::percentiles(const PercentileSearch& search) {
   constexpr int kMostTallies = 20;
-  constexpr double kOfWidth = 1.0 / 32;  // nearer ends make no interval much narrower
-  std::vector<PercentileEnd> ends;
-  for (size_t i = 0; i < search.shares.size(); ++i) {
-    const double share = search.shares[i];
-    const SharesSeen::Ends known = shares_.percentile(share, 0, highest());
-    const double enough = std::max(search.resolution, kOfWidth * (known.high - known.low));
-    ends.push_back({share, known.low, known.first, known.high, enough, false});
-    ends.push_back({share, known.low, known.last, known.high, enough, true});
+  PercentileEnds ends;
+  for (const double share : search.shares) {
+    const SharesSeen::Ends known =
+        shares_.percentile(share, seen_.lowest, std::min(seen_.highest, highest()));
+    ends.push_back({PercentileEnd{share, known.low, known.first, known.high, false},
+                    {share, known.low, known.last, known.high, true}});
   }
   for (int pass = 0; pass < kMostTallies; ++pass) {
+    const std::vector<PercentileEnd*> wide = wide_ends(ends, search.resolution);
     std::vector<Threshold> at;
-    for (const PercentileEnd& e : ends) {
-      for (int k = 1; k < PercentileEnd::kSections && e.is_wide(); ++k)
-        at.push_back({e.cut(k), e.cut(k)});
+    for (const PercentileEnd* end : wide) {
+      for (int k = 1; k < PercentileEnd::kSections; ++k) at.push_back({end->cut(k), end->cut(k)});
     }
     if (at.empty()) break;
     const std::vector<Enclosure> shares = tally({at}).shares;
     constexpr size_t kCuts = PercentileEnd::kSections - 1;
-    size_t first = 0;
-    for (PercentileEnd& e : ends) {
-      if (!e.is_wide()) continue;
-      e.look(std::span(shares).subspan(first, kCuts));
-      first += kCuts;
-    }
+    for (size_t i = 0; i < wide.size(); ++i)
+      wide[i]->look(std::span(shares).subspan(kCuts * i, kCuts));
   }
   std::vector<Enclosure> all;
-  for (size_t i = 0; i < ends.size(); i += 2) all.push_back({ends[i].low, ends[i + 1].high});
+  for (const auto& [lower, upper] : ends) all.push_back({lower.low, upper.high});
   return all;
 }
 
