@@ -84,6 +84,14 @@ void Pictures::write_tables(const Measured& measured) const {
   if (points_) points_->write(points_csv(measured));
 }
 
+void Pictures::draw(const Measured& measured) const {
+  const ShownAnswer shown(measured, style_);
+  const std::vector<std::string> pictures = shown.pictures();
+  if (image_.there) image_.there->write(pictures[0]);
+  if (image_.back && pictures.size() > 1) image_.back->write(pictures[1]);
+  if (report_) report_->write(shown.page(pictures, asked_.title));
+}
+
 std::string Pictures::write(const Answer& answer, const MeshPointer& a,
                             const MeshPointer& b) const {
   if (!asked_.has_pictures()) return "";
@@ -97,13 +105,10 @@ std::string Pictures::write(const Answer& answer, const MeshPointer& a,
     write_tables(measured);
     for (const Side& side : sides_of(measured)) {
       const std::optional<OutputFile>& field = side.back ? field_.back : field_.there;
-      const std::optional<OutputFile>& image = side.back ? image_.back : image_.there;
       if (field) field->write(field_text(side, answer, *asked_.field, style_.options.map));
       if (field && !side.back) note_on_metres(answer, *asked_.field);
-      if (image) image->write(picture_of(side, answer, style_));
     }
-    if (report_)
-      report_->write(report_of(measured, pictures_of(measured, style_), style_, asked_.title));
+    if (image_.there || report_) draw(measured);
   } catch (const Error& error) {  // a length that the files' units do not resolve, for example
     return error.what();
   }

@@ -30,6 +30,8 @@ class Pictures {
     std::optional<OutputFile> there, back;
   };
   void write_tables(const Measured& measured) const;
+  /// Writes pictures and the report.
+  void draw(const Measured& measured) const;
   static void open(Files& files, const char* option, const std::optional<std::string>& path,
                    bool symmetric, const std::vector<std::string>& inputs);
 

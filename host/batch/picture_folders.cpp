@@ -113,8 +113,9 @@ void BatchFolders::write(const EndedPair& ended) const {
   const Measured measured{answer, *pair.a(), *pair.b()};
   const std::string& id = ended.name.id;
   const std::string key = key_of(ended.name);
-  std::vector<std::string> pictures = pictures_of(measured, style_);
-  if (reports_) reports_->write(id, false, report_of(measured, pictures, style_), key);
+  const ShownAnswer shown(measured, style_);
+  std::vector<std::string> pictures = shown.pictures();
+  if (reports_) reports_->write(id, false, shown.page(pictures), key);
   if (!images_) return;
   for (const Side& side : sides_of(measured))
     images_->write(id, side.back, std::move(pictures[side.back ? 1 : 0]), key);

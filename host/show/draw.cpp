@@ -349,7 +349,15 @@ Area Drawing::place_for_label(const Panel& panel, const Layer& layer, const Labe
   return best;
 }
 
-void check(const Picture& picture, const PictureOptions& options) {
+}  // namespace
+
+Image draw(const MappedPicture& mapped, const PictureOptions& options) {
+  return Drawing(mapped, options).draw();
+}
+
+}  // namespace drawing
+
+void check_picture(const Picture& picture, const PictureOptions& options) {
   const auto refuse = [](const std::string& why) { throw UsageError("a picture " + why); };
   if (picture.field.lower.size() != picture.mesh.faces.size() ||
       picture.field.upper.size() != picture.mesh.faces.size())
@@ -366,12 +374,9 @@ void check(const Picture& picture, const PictureOptions& options) {
     refuse("needs a range from a length to another that is no smaller");
 }
 
-}  // namespace
-}  // namespace drawing
-
 Image draw(const Picture& picture, const PictureOptions& options) {
-  drawing::check(picture, options);
-  return drawing::Drawing(drawing::MappedPicture(picture, options), options).draw();
+  check_picture(picture, options);
+  return drawing::draw(drawing::MappedPicture(picture, options), options);
 }
 
 }  // namespace vkh

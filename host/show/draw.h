@@ -82,8 +82,11 @@ inline constexpr uint32_t kLeastPictureWidth = 640, kLeastPictureHeight = 400,
 View parse_view(const char* option, const std::string& text);
 void parse_picture_size(const char* option, const std::string& text, PictureOptions& options);
 
-/// Throws UsageError if the options make no sense, or the build has no stb. The same bytes on every
-/// machine.
+/// Throws UsageError if the options make no sense.
+void check_picture(const Picture& picture, const PictureOptions& options);
+
+/// Throws what check_picture() throws, and UsageError if the build has no stb. The same bytes on
+/// every machine.
 Image draw(const Picture& picture, const PictureOptions& options = {});
 
 /// The bytes of a PNG file.

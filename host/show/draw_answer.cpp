@@ -106,29 +106,26 @@ Picture drawn_of(const Side& side, const Answer& answer) {
   return picture;
 }
 
-std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look) {
-  return encode_png(draw(drawn_of(side, answer), options_of(look, answer)));
+ShownAnswer::ShownAnswer(const Measured& measured, const PictureStyle& look)
+    : answer_(measured.answer), options_(options_of(look, measured.answer)) {
+  for (const Side& side : sides_of(measured)) {
+    const Picture picture = drawn_of(side, answer_);
+    check_picture(picture, options_);
+    sides_.push_back(std::make_shared<const drawing::MappedPicture>(picture, options_));
+  }
 }
 
-std::vector<std::string> pictures_of(const Measured& measured, const PictureStyle& look) {
+std::vector<std::string> ShownAnswer::pictures() const {
   std::vector<std::string> pictures;
-  for (const Side& side : sides_of(measured))
-    pictures.push_back(picture_of(side, measured.answer, look));
+  for (const auto& side : sides_) pictures.push_back(encode_png(drawing::draw(*side, options_)));
   return pictures;
 }
 
-std::string report_of(const Measured& measured, std::span<const std::string> pictures,
-                      const PictureStyle& look, const std::string& title) {
-  const std::vector<Side> sides = sides_of(measured);
-  std::vector<PageDirection> directions;
-  for (size_t i = 0; i < sides.size(); ++i) {
-    directions.push_back({.drawn = drawn_of(sides[i], measured.answer), .picture = pictures[i]});
-  }
-  PageContents contents{.answer = &measured.answer,
-                        .a_to_b = directions[0],
-                        .title = title,
-                        .look = options_of(look, measured.answer)};
-  if (directions.size() > 1) contents.b_to_a.emplace(directions[1]);
+std::string ShownAnswer::page(std::span<const std::string> pictures,
+                              const std::string& title) const {
+  PageContents contents{
+      .answer = &answer_, .a_to_b = {sides_[0], pictures[0]}, .title = title, .up = options_.up};
+  if (sides_.size() > 1) contents.b_to_a.emplace(PageDirection{sides_[1], pictures[1]});
   return to_page(contents);
 }
 

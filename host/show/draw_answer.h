@@ -2,13 +2,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "host/answer/request.h"
-#include "host/show/draw.h"
+#include "host/show/mapped_picture.h"
 #include "vkhausdorff/answer.h"
 
 namespace vkh {
@@ -53,16 +54,24 @@ Enclosure interval_of(const Side& side);
 /// side and the answer.
 Picture drawn_of(const Side& side, const Answer& answer);
 
-/// Returns a PNG's bytes. Throws what draw() throws, and UsageError for a range that the files'
-/// units do not resolve.
-std::string picture_of(const Side& side, const Answer& answer, const PictureStyle& look);
+/// An answer as its pictures and its page show it: what both need is found once.
+class ShownAnswer {
+ public:
+  /// Refers to what is measured. Throws what sides_of() and check_picture() throw, and UsageError
+  /// for a range that the files' units do not resolve.
+  ShownAnswer(const Measured& measured, const PictureStyle& look);
 
-/// Returns one picture per side: they stand in where a page has no WebGL.
-std::vector<std::string> pictures_of(const Measured& measured, const PictureStyle& look);
+  /// Returns the bytes of a PNG for each side: they stand in where a page has no WebGL.
+  std::vector<std::string> pictures() const;
 
-/// Returns a page, with `pictures` of the sides and their colours. `title`: its heading; empty: the
-/// names of both files.
-std::string report_of(const Measured& measured, std::span<const std::string> pictures,
-                      const PictureStyle& look, const std::string& title = {});
+  /// Returns a page, with `pictures` of the sides and their colours. `title`: its heading; empty:
+  /// the names of both files.
+  std::string page(std::span<const std::string> pictures, const std::string& title = {}) const;
+
+ private:
+  const Answer& answer_;
+  const PictureOptions options_;
+  std::vector<std::shared_ptr<const drawing::MappedPicture>> sides_;
+};
 
 }  // namespace vkh

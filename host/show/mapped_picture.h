@@ -31,4 +31,7 @@ struct MappedPicture {
   MapCounts counts;
 };
 
+/// Draws what check_picture() takes. `options` are those of the map.
+Image draw(const MappedPicture& mapped, const PictureOptions& options);
+
 }  // namespace vkh::drawing

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 
 #include "host/base/decimal.h"
 #include "host/base/parse_json.h"
 #include "host/show/escape.h"
-#include "host/show/mapped_picture.h"
 #include "host/show/page_assets.h"
 #include "host/show/page_figures.h"
 #include "host/show/page_mesh.h"
@@ -24,14 +22,6 @@ constexpr size_t kLeastFaces = 100;       // fewer show nothing: such a page has
 constexpr size_t kMostFaces = 5'000'000;  // corners are numbered in three bytes
 constexpr size_t kCurvePoints = 1000;     // more than the columns of a screen
 
-/// One direction.
-struct PageSide : drawing::MappedPicture {
-  PageSide(const PageDirection& side, const PictureOptions& look)
-      : MappedPicture(side.drawn, look), given(side) {}
-
-  const PageDirection& given;
-};
-
 /// Everything of a page but the shown meshes and the pictures.
 class PageWriter {
  public:
@@ -40,12 +30,11 @@ class PageWriter {
         answer_(*contents.answer),
         limits_(limits),
         answer_json_(to_json(answer_)) {
-    sides_.push_back(std::make_unique<PageSide>(contents.a_to_b, contents.look));
-    if (contents.b_to_a)
-      sides_.push_back(std::make_unique<PageSide>(*contents.b_to_a, contents.look));
-    for (const auto& side : sides_) {
-      top_ = std::max(top_, drawing::largest_known(side->drawn));
-      bar_ = std::max({bar_, side->scale->high(), -side->scale->low()});
+    sides_.push_back(&contents.a_to_b);
+    if (contents.b_to_a) sides_.push_back(&*contents.b_to_a);
+    for (const PageDirection* side : sides_) {
+      top_ = std::max(top_, drawing::largest_known(side->shown->drawn));
+      bar_ = std::max({bar_, side->shown->scale->high(), -side->shown->scale->low()});
     }
     const std::optional<Limit> asked =
         answer_.max ? std::optional<Limit>(answer_.max->limit) : std::nullopt;
@@ -80,14 +69,15 @@ class PageWriter {
   // Pictures may together take two fifths of the page: more is a mistake of their size.
   void keep_pictures() {
     size_t bytes = 0;
-    for (const auto& side : sides_) bytes += side->given.picture.size() * 4 / 3;
+    for (const PageDirection* side : sides_) bytes += side->picture.size() * 4 / 3;
     keeps_pictures_ = bytes <= limits_.bytes / 5 * 2;
   }
 
   Meshes meshes_of(size_t faces) const {
     Meshes out;
-    for (const auto& side : sides_) {
-      const ShownMesh shown = shown_mesh(side->drawn.mesh, *side->drawn.map, *side->scale, faces);
+    for (const PageDirection* side : sides_) {
+      const Picture& drawn = side->shown->drawn;
+      const ShownMesh shown = shown_mesh(drawn.mesh, *drawn.map, *side->shown->scale, faces);
       out.packed.push_back(packed(shown));
       out.places.push_back(shown.place);
       out.is_decimated.push_back(shown.is_decimated);
@@ -99,10 +89,11 @@ class PageWriter {
   std::string assembled(const Meshes& meshes) const {
     Json view = head_view(answer_, contents_.title);
     view["sides"] = Json::array();
-    for (const auto& side : sides_) {
+    for (const PageDirection* side : sides_) {
+      const drawing::MappedPicture& shown = *side->shown;
       view["sides"].push_back(
-          side_view(answer_, {side->drawn, *side->scale, side->counts, side->places}));
-      add_picture(side->given, view["sides"].back());
+          side_view(answer_, {shown.drawn, *shown.scale, shown.counts, shown.places}));
+      add_picture(*side, view["sides"].back());
     }
     view["record"] = record_view(answer_);
     view["has_view"] = !meshes.packed.empty();
@@ -134,7 +125,7 @@ class PageWriter {
                  {"steps", steps_json()},
                  {"lower", whole.lower},
                  {"upper", whole.upper},
-                 {"up", contents_.look.up == Up::kY ? "y" : "z"}};
+                 {"up", contents_.up == Up::kY ? "y" : "z"}};
     const int asked = asked_step();
     data["asked"] = asked;
     data["start"] = asked >= 0 ? asked : static_cast<int>(steps_.size()) - 1;
@@ -164,12 +155,13 @@ class PageWriter {
   }
 
   Json side_json(size_t i, const Meshes& meshes) const {
+    const drawing::MappedPicture& shown = *sides_[i]->shown;
     Json side = {{"from", i == 0 ? "A" : "B"},
                  {"to", i == 0 ? "B" : "A"},
                  {"curve", Json::array()},
-                 {"of", of_text(*sides_[i])},
-                 {"scale", scale_json(*sides_[i]->scale)}};
-    if (const Statistics* statistics = sides_[i]->drawn.statistics) {
+                 {"of", of_text(shown.drawn)},
+                 {"scale", scale_json(*shown.scale)}};
+    if (const Statistics* statistics = shown.drawn.statistics) {
       side["curve"] = curve_json(statistics->curve);
       for (const AreaWithin& band : statistics->bands) {
         if (is_limit(answer_, band.distance))
@@ -188,22 +180,22 @@ class PageWriter {
                     {"size", place.size},
                     {"spacing", meshes.spacings[i]}};
     side["decimated"] = meshes.is_decimated[i];
-    side["caption"] = caption(*sides_[i], meshes.is_decimated[i], mesh.faces);
+    side["caption"] = caption(shown, meshes.is_decimated[i], mesh.faces);
     return side;
   }
 
   // Names the whole that shares of a direction are parts of.
-  static std::string of_text(const PageSide& side) {
-    return std::string(side.drawn.mesh.are_points ? "points of " : "area of ") +
-           (side.drawn.back ? "B" : "A");
+  static std::string of_text(const Picture& drawn) {
+    return std::string(drawn.mesh.are_points ? "points of " : "area of ") +
+           (drawn.back ? "B" : "A");
   }
 
-  static std::string caption(const PageSide& side, bool is_decimated, size_t faces) {
-    const bool are_points = side.drawn.mesh.are_points;
+  static std::string caption(const drawing::MappedPicture& shown, bool is_decimated, size_t faces) {
+    const bool are_points = shown.drawn.mesh.are_points;
     const std::string one = are_points ? "point" : "face";
     std::string text =
-        side.is_of_bounds()
-            ? side.colours_of_bounds()
+        shown.is_of_bounds()
+            ? shown.colours_of_bounds()
             : "Colours are estimated distances; hatched parts are known less closely than 5 % of "
               "the bar.";
     if (is_decimated)
@@ -231,7 +223,7 @@ class PageWriter {
   const Answer& answer_;
   PageLimits limits_;
   std::string answer_json_;
-  std::vector<std::unique_ptr<PageSide>> sides_;
+  std::vector<const PageDirection*> sides_;
   double top_ = 0, bar_ = 0;
   bool keeps_pictures_ = true;
   std::vector<Step> steps_;

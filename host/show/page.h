@@ -3,27 +3,28 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
-#include "host/show/draw.h"
+#include "host/show/mapped_picture.h"
 #include "vkhausdorff/answer.h"
 
 namespace vkh {
 
 /// The measured mesh of one direction. All that is pointed at stays the caller's.
 struct PageDirection {
-  Picture drawn;                  ///< what the view shows, as a picture would
-  std::string_view picture = {};  ///< a PNG's bytes; empty: none
+  std::shared_ptr<const drawing::MappedPicture> shown;  ///< by the view, as by a picture
+  std::string_view picture = {};                        ///< a PNG's bytes; empty: none
 };
 
 struct PageContents {
   const Answer* answer = nullptr;
   PageDirection a_to_b;
   std::optional<PageDirection> b_to_a = {};
-  std::string title = {};    ///< the page's heading; empty: the names of both files
-  PictureOptions look = {};  ///< colours, their range, and the axis that points up
+  std::string title = {};  ///< the page's heading; empty: the names of both files
+  Up up = Up::kZ;
 };
 
 struct PageLimits {

@@ -218,10 +218,13 @@ struct Invented {
                              SurfaceSide::kOver}[cell.face % 4];
   }
 
-  PageContents contents() const {
-    PageContents out{&answer, {drawn(false), picture}};
-    if (answer.b_to_a) out.b_to_a.emplace(PageDirection{drawn(true), picture});
+  PageContents contents(const PictureOptions& look = {}) const {
+    PageContents out{&answer, direction(false, look)};
+    if (answer.b_to_a) out.b_to_a = direction(true, look);
     return out;
+  }
+  PageDirection direction(bool back, const PictureOptions& look) const {
+    return {std::make_shared<const drawing::MappedPicture>(drawn(back), look), picture};
   }
 
   Picture drawn(bool back) const {

@@ -320,8 +320,7 @@ TEST_CASE("one stray triangle does not set the colours of all others") {
 
 TEST_CASE("a page has the colours of the map that was asked for") {
   const Invented pair = small_pair();
-  vkh::PageContents contents = pair.contents();
-  contents.look.map = vkh::ColourMap::kBatlow;
+  const vkh::PageContents contents = pair.contents({.map = vkh::ColourMap::kBatlow});
   const std::string colours =
       script(vkh::to_page(contents), "data")["sides"][0]["scale"]["colours"];
   CHECK(colours.size() == (6 + 16 + 6) * 6);
