@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <optional>
-#include <unordered_map>
+#include <vector>
 
 #include "host/show/camera.h"
 #include "host/show/page_words.h"
@@ -29,10 +29,10 @@ glm::dvec3 point_at(const Mesh& mesh, size_t face, const glm::dvec3& w) {
   return w.x * a + w.y * b + w.z * c;
 }
 
-// The place at a corner of a cell.
-MapPlace place_at(const Mesh& mesh, const CellMap& map, const MapCell& cell, size_t corner) {
+// The place at a corner of a cell, at that point.
+MapPlace place_at(const glm::dvec3& point, const CellMap& map, const MapCell& cell, size_t corner) {
   const auto estimate = static_cast<double>(cell.estimate[corner]);
-  return {.point = point_at(mesh, cell.face, weights_of(cell)[corner]),
+  return {.point = point,
           .distance = map.unit * estimate,
           .side = cell.side,
           .face = cell.face,
@@ -68,10 +68,10 @@ MapPlace place_of_witness(const CellMap& map, const Witness& witness) {
 }
 
 // The boxes of a grid over the mesh, each with the farthest place in it. A cell that is larger than
-// a box links the boxes of its corners.
+// a box links the boxes of its corners, where they do not touch.
 class MapGrid {
  public:
-  explicit MapGrid(const Mesh& mesh) {
+  explicit MapGrid(const Mesh& mesh) : number_(kRow * kRow * kRow, kNone) {
     glm::dvec3 lo = mesh.vertices[0], hi = lo;
     for (const glm::dvec3 v : mesh.vertices) {
       lo = glm::min(lo, v);
@@ -86,17 +86,24 @@ class MapGrid {
 
   /// Adds the corners of a cell that are at least so far; a point's are one.
   void add(const Mesh& mesh, const CellMap& map, const MapCell& cell, float least) {
-    std::optional<size_t> last;
+    if (largest_of(cell) < least) return;
+    const std::array<glm::dvec3, 3> weights = weights_of(cell);
+    std::optional<BoxAt> last;
     const size_t corners = mesh.are_points ? 1 : cell.estimate.size();
     for (size_t corner = 0; corner < corners; ++corner) {
       if (cell.estimate[corner] < least) continue;
-      const size_t box = box_with(place_at(mesh, map, cell, corner));
-      if (last && *last != box) link(*last, box);
+      const glm::dvec3 point = point_at(mesh, cell.face, weights[corner]);
+      const BoxAt box = box_of(point);
+      put(box, map.unit * static_cast<double>(cell.estimate[corner]),
+          [&] { return place_at(point, map, cell, corner); });
+      if (last && !do_touch(*last, box)) link(number_[key_of(*last)], number_[key_of(box)]);
       last = box;
     }
   }
 
-  void add(const MapPlace& place) { (void)box_with(place); }
+  void add(const MapPlace& place) {
+    put(box_of(place.point), place.distance, [&] { return place; });
+  }
 
   const std::vector<MapPlace>& places() const { return places_; }
 
@@ -104,42 +111,60 @@ class MapGrid {
   template <class Visit>
   void around(size_t number, const Visit& visit) const {
     for (const size_t other : linked_[number]) visit(other);
-    const std::array<int64_t, 3> box = box_of(places_[number].point);
+    const BoxAt box = box_of(places_[number].point);
     for (int64_t i = 0; i < 27; ++i) {
-      const auto found = number_.find(
-          key_of_box({box[0] + i % 3 - 1, box[1] + i / 3 % 3 - 1, box[2] + i / 9 - 1}));
-      if (found != number_.end()) visit(found->second);
+      const uint32_t found =
+          number_[key_of({box[0] + i % 3 - 1, box[1] + i / 3 % 3 - 1, box[2] + i / 9 - 1})];
+      if (found != kNone) visit(found);
     }
   }
 
  private:
-  size_t box_with(const MapPlace& place) {
-    const auto [found, is_new] = number_.try_emplace(key_of(place.point), places_.size());
-    if (is_new) {
-      places_.push_back(place);
+  // Numbers along the axes. Rounding may put a point beside the mesh's box, and boxes beside it are
+  // looked at, too: two more at each end.
+  using BoxAt = std::array<int64_t, 3>;
+  static constexpr size_t kRow = kGrid + 5;
+  static constexpr uint32_t kNone = UINT32_MAX;
+
+  /// Keeps the farthest place of a box; make_place() makes it.
+  template <class MakePlace>
+  void put(const BoxAt& box, double distance, const MakePlace& make_place) {
+    uint32_t& number = number_[key_of(box)];
+    if (number == kNone) {
+      number = static_cast<uint32_t>(places_.size());
+      places_.push_back(make_place());
       linked_.emplace_back();
-    } else if (place.distance > places_[found->second].distance) {
-      places_[found->second] = place;
+    } else if (distance > places_[number].distance) {
+      places_[number] = make_place();
     }
-    return found->second;
+  }
+  static bool do_touch(const BoxAt& one, const BoxAt& two) {
+    for (size_t axis = 0; axis < one.size(); ++axis) {
+      if (std::abs(one[axis] - two[axis]) > 1) return false;
+    }
+    return true;
   }
   void link(size_t one, size_t two) {
     linked_[one].push_back(two);
     linked_[two].push_back(one);
   }
-  std::array<int64_t, 3> box_of(const glm::dvec3& p) const {
-    const glm::dvec3 at = glm::floor((p - lo_) / step_);
-    return {static_cast<int64_t>(at.x), static_cast<int64_t>(at.y), static_cast<int64_t>(at.z)};
+  BoxAt box_of(const glm::dvec3& p) const {
+    const glm::dvec3 at = (p - lo_) / step_;
+    return {number_along(at.x), number_along(at.y), number_along(at.z)};
   }
-  static int64_t key_of_box(const std::array<int64_t, 3>& box) {
-    constexpr int64_t kRow = kGrid + 4;
-    return (box[0] + 1) + kRow * ((box[1] + 1) + kRow * (box[2] + 1));
+  static int64_t number_along(double at) {
+    const double near = std::min(std::max(-1.0, at), kGrid + 1.0);
+    const auto whole = static_cast<int64_t>(near);  // rounded down next: no call of a library
+    return near < static_cast<double>(whole) ? whole - 1 : whole;
   }
-  int64_t key_of(const glm::dvec3& p) const { return key_of_box(box_of(p)); }
+  static size_t key_of(const BoxAt& box) {
+    const auto along = [&](size_t axis) { return static_cast<size_t>(box[axis] + 2); };
+    return along(0) + kRow * (along(1) + kRow * along(2));
+  }
 
   glm::dvec3 lo_{};
   double step_ = 1;
-  std::unordered_map<int64_t, size_t> number_;
+  std::vector<uint32_t> number_;
   std::vector<MapPlace> places_;
   std::vector<std::vector<size_t>> linked_;
 };
