@@ -6,10 +6,10 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "host/base/parallel.h"
 #include "host/survey/cell_corners.h"
-#include "host/survey/cell_store.h"
 
 namespace vkh {
 namespace {
@@ -27,30 +27,46 @@ std::array<uint32_t, 4> words_of(const lib::Bary3& corners) {
   return {w.x, w.y, w.z, w.w};
 }
 
+/// A cell while the halvings that it comes from are sought.
+struct Part {
+  lib::Bary3 corners;
+  uint32_t cell;
+  bool is_first = false;  ///< of the last halving's halves
+};
+
 /// The halving of a triangle at the middle of an edge, the line from the corner opposite to it.
-struct Halving {
-  uint32_t opposite;
+class Halving {
+ public:
+  Halving(const lib::Bary3& t, uint32_t corner)
+      : halves(lib::halves_of(t, corner, lib::middle_opposite(t, corner))),
+        from_(halves.first.a),
+        way_(Way(halves.first.c) - from_) {
+    if (side(halves.first.b) < 0) way_ = -way_;
+  }
+
+  /// Sorts the parts into halves, as far as the line passes through none of them; returns whether
+  /// that is all.
+  bool sort(std::span<Part> parts) const {
+    for (Part& part : parts) {
+      const int64_t x = side(part.corners.a), y = side(part.corners.b), z = side(part.corners.c);
+      if (std::min({x, y, z}) < 0 && std::max({x, y, z}) > 0) return false;
+      part.is_first = x + y + z > 0;
+    }
+    return true;
+  }
+
   lib::Halves halves;
 
-  Halving(const lib::Bary3& t, uint32_t corner)
-      : opposite(corner), halves(lib::halves_of(t, corner, lib::middle_opposite(t, corner))) {}
+ private:
+  using Way = glm::vec<2, int64_t>;
 
-  /// Positive on the first half's side of the line, negative on the other's; exact, for corners are
-  /// integers.
-  double side(const glm::uvec2& p) const {
-    const glm::dvec2 a(halves.first.a), m(halves.first.c), b(halves.first.b);
-    const glm::dvec2 way = m - a;
-    const auto of = [&](const glm::dvec2& at) {
-      return way.x * (at.y - a.y) - way.y * (at.x - a.x);
-    };
-    return of(b) > 0 ? of(glm::dvec2(p)) : -of(glm::dvec2(p));
+  /// Positive on the first half's side of the line, negative on the other's.
+  int64_t side(const glm::uvec2& p) const {
+    const Way at = Way(p) - from_;
+    return way_.x * at.y - way_.y * at.x;
   }
-  bool is_first(const lib::Bary3& c) const { return side(c.a) + side(c.b) + side(c.c) > 0; }
-  /// Whether the line passes through a cell.
-  bool cuts(const lib::Bary3& c) const {
-    const double x = side(c.a), y = side(c.b), z = side(c.c);
-    return std::min({x, y, z}) < 0 && std::max({x, y, z}) > 0;
-  }
+
+  Way from_, way_;
 };
 
 /// A cell, or two halves as one.
@@ -60,66 +76,93 @@ struct Node {
   double cost = 0;                  // of showing it as one, or of halves of it if that is more
 };
 
-/// The halvings of faces: what each would cost to undo, and the cells that are left.
+/// The halvings of faces: what each would cost to undo, and the cells that are left then.
 class Halvings {
  public:
-  Halvings(const Mesh& mesh, const CellMap& map, const MapScale& scale)
-      : mesh_(mesh), map_(map), scale_(scale), unseen_(scale.length() / kColours) {}
+  Halvings(const CellMap& map, const MapScale& scale)
+      : map_(map), scale_(scale), unseen_(scale.length() / kColours) {}
 
-  /// Adds the cells of one face that are left where all halvings of up to `most_cost` are undone.
-  /// Reorders `cells`.
-  void add_face(std::span<uint32_t> cells, double most_cost) {
-    most_cost_ = most_cost;
-    const Node whole = node_of(lib::whole_root(), cells);
-    if (whole.cost <= most_cost) left.push_back(whole.cell);
+  /// Finds the halvings that the cells of one face come from.
+  void add_face(std::span<const uint32_t> cells) {
+    parts_.clear();
+    for (const uint32_t i : cells) parts_.push_back({corners_at(map_.cells[i].corners), i});
+    find(lib::whole_root(), parts_);
+    ++faces_;
   }
 
-  std::vector<double> costs;    // of each halving
-  std::vector<ShownCell> left;  // the cells
+  /// The costs of all halvings.
+  const std::vector<double>& costs() const { return costs_; }
+
+  /// Adds the cells that are left where all halvings of up to `most_cost` are undone.
+  void add_left(double most_cost, std::vector<ShownCell>& left) const {
+    Walk walk{.most_cost = most_cost, .left = left};
+    for (size_t face = 0; face < faces_; ++face) {
+      const Node whole = undone(lib::whole_root(), walk);
+      if (whole.cost <= most_cost) left.push_back(whole.cell);
+    }
+  }
 
  private:
-  Node leaf_of(const MapCell& cell) const {
+  static constexpr uint32_t kCell = 3;
+
+  /// A triangle that is halved at the edge opposite that corner; kCell: a cell.
+  struct Piece {
+    uint32_t opposite, cell = 0;
+  };
+  struct Walk {
+    const double most_cost;
+    std::vector<ShownCell>& left;
+    size_t piece = 0, cost = 0;  ///< the next ones
+  };
+
+  Node leaf_of(uint32_t number) const {
+    const MapCell& cell = map_.cells[number];
     Node node{.cell = {cell.corners, cell.face, shown_value(map_, scale_, cell)},
               .area = static_cast<double>(cell.share)};
     node.unresolved = node.cell.value.is_hatched ? node.area : 0;
     return node;
   }
 
-  // The halving that the cells come from, which cuts none of them. It is the only one: another
-  // would meet the first in the triangle's centroid, which is no corner of a cell. Whoever halved
-  // took the longest edge, but floats may have taken another for it.
-  Halving halving_of(const lib::Bary3& t, std::span<const uint32_t> cells) const {
-    gpu::Cell words{};
-    set_corners(words, t);
-    words.face = map_.cells[cells[0]].face;
-    const uint32_t longest = opposite_longest(mesh_, words);
-    for (const uint32_t corner : {longest, (longest + 1) % 3, (longest + 2) % 3}) {
-      const Halving halving(t, corner);
-      const auto is_cut = [&](uint32_t i) {
-        return halving.cuts(corners_at(map_.cells[i].corners));
-      };
-      if (std::none_of(cells.begin(), cells.end(), is_cut)) return halving;
+  // The corner of the halving that the parts come from, which cuts none of them. It is the only
+  // one: another would meet the first in the triangle's centroid, which is no corner of a cell.
+  static uint32_t halved_at(const lib::Bary3& t, std::span<Part> parts) {
+    for (uint32_t corner = 0; corner < 3; ++corner) {
+      if (Halving(t, corner).sort(parts)) return corner;
     }
     throw std::logic_error("cells are no halves of their face");
   }
 
-  Node node_of(const lib::Bary3& t, std::span<uint32_t> cells) {
-    if (cells.size() == 1) return leaf_of(map_.cells[cells[0]]);
-    const Halving halving = halving_of(t, cells);
-    const auto cut = std::partition(cells.begin(), cells.end(), [&](uint32_t i) {
-      return halving.is_first(corners_at(map_.cells[i].corners));
-    });
-    const auto count = static_cast<size_t>(cut - cells.begin());
-    if (count == 0 || count == cells.size()) throw std::logic_error("cells do not tile their face");
-    const Node first = node_of(halving.halves.first, cells.first(count));
-    const Node second = node_of(halving.halves.second, cells.subspan(count));
-    const Node both = joined(t, halving.opposite, first, second);
-    costs.push_back(both.cost);
-    if (both.cost <= most_cost_) return both;
-    for (const Node* half : {&first, &second}) {
-      if (half->cost <= most_cost_) left.push_back(half->cell);
+  Node find(const lib::Bary3& t, std::span<Part> parts) {
+    if (parts.size() == 1) {
+      pieces_.push_back({kCell, parts[0].cell});
+      return leaf_of(parts[0].cell);
     }
+    const uint32_t opposite = halved_at(t, parts);
+    const lib::Halves halves = Halving(t, opposite).halves;
+    const auto cut =
+        std::partition(parts.begin(), parts.end(), [](const Part& p) { return p.is_first; });
+    const auto count = static_cast<size_t>(cut - parts.begin());
+    if (count == 0 || count == parts.size()) throw std::logic_error("cells do not tile their face");
+    const size_t number = costs_.size();
+    costs_.push_back(0);
+    pieces_.push_back({opposite});
+    const Node first = find(halves.first, parts.first(count));
+    const Node both = joined(t, opposite, first, find(halves.second, parts.subspan(count)));
+    costs_[number] = both.cost;
     return both;
+  }
+
+  Node undone(const lib::Bary3& t, Walk& walk) const {
+    const Piece& piece = pieces_[walk.piece++];
+    if (piece.opposite == kCell) return leaf_of(piece.cell);
+    const double cost = costs_[walk.cost++];
+    const lib::Halves halves = Halving(t, piece.opposite).halves;
+    const Node first = undone(halves.first, walk), second = undone(halves.second, walk);
+    if (cost <= walk.most_cost) return joined(t, piece.opposite, first, second);
+    for (const Node* half : {&first, &second}) {
+      if (half->cost <= walk.most_cost) walk.left.push_back(half->cell);
+    }
+    return {.cell = {}, .cost = cost};
   }
 
   // A half without a side beside one with a side is shown as if it were on B, as widely as it is.
@@ -161,11 +204,14 @@ class Halvings {
     return both;
   }
 
-  const Mesh& mesh_;
   const CellMap& map_;
   const MapScale& scale_;
   const double unseen_;
-  double most_cost_ = 0;
+  // Both with what is before its halves, and a first half before the second.
+  std::vector<Piece> pieces_;
+  std::vector<double> costs_;
+  size_t faces_ = 0;
+  std::vector<Part> parts_;  // of one face
 };
 
 /// The numbers of a map's cells, by faces.
@@ -180,7 +226,7 @@ class CellsByFace {
       cells_[next[map.cells[i].face]++] = static_cast<uint32_t>(i);
   }
   size_t face_count() const { return first_.size() - 1; }
-  std::span<uint32_t> of(size_t face) {
+  std::span<const uint32_t> of(size_t face) const {
     return std::span(cells_).subspan(first_[face], first_[face + 1] - first_[face]);
   }
 
@@ -189,16 +235,17 @@ class CellsByFace {
   std::vector<uint32_t> cells_;
 };
 
-/// Undoes all halvings that cost no more; pieces of the work are in the order of the faces.
-std::vector<Halvings> undone(const Halvings& none, CellsByFace& cells, double most_cost) {
-  constexpr size_t kPiece = 1024;
-  std::vector<Halvings> pieces((cells.face_count() + kPiece - 1) / kPiece, none);
-  for_each_range_of(kPiece, cells.face_count(), [&](size_t number, size_t begin, size_t end) {
+/// The halvings of all faces, in lots in the order of the faces.
+std::vector<Halvings> halvings_of(const Mesh& mesh, const CellMap& map, const MapScale& scale) {
+  constexpr size_t kLot = 256;
+  const CellsByFace cells(mesh, map);
+  std::vector<Halvings> lots((cells.face_count() + kLot - 1) / kLot, Halvings(map, scale));
+  for_each_range_of(kLot, cells.face_count(), [&](size_t number, size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) {
-      if (!cells.of(f).empty()) pieces[number].add_face(cells.of(f), most_cost);
+      if (!cells.of(f).empty()) lots[number].add_face(cells.of(f));
     }
   });
-  return pieces;
+  return lots;
 }
 
 /// The cost of the last halving that has to be undone for so many cells to be left.
@@ -229,16 +276,17 @@ ShownValue shown_value(const CellMap& map, const MapScale& scale, const MapCell&
 
 std::vector<ShownCell> shown_cells(const Mesh& mesh, const CellMap& map, const MapScale& scale,
                                    size_t most) {
-  const Halvings none(mesh, map, scale);
-  CellsByFace cells(mesh, map);
+  const std::vector<Halvings> lots = halvings_of(mesh, map, scale);
   std::vector<double> costs;
-  for (const Halvings& piece : undone(none, cells, std::numeric_limits<double>::infinity()))
-    costs.insert(costs.end(), piece.costs.begin(), piece.costs.end());
+  for (const Halvings& lot : lots)
+    costs.insert(costs.end(), lot.costs().begin(), lot.costs().end());
   const size_t count = map.cells.size();
   const double most_cost = cost_for(std::move(costs), count > most ? count - most : 0);
+  std::vector<std::vector<ShownCell>> left(lots.size());
+  for_each_index(lots.size(), [&](size_t i) { lots[i].add_left(most_cost, left[i]); });
   std::vector<ShownCell> shown;
-  for (const Halvings& piece : undone(none, cells, most_cost))
-    shown.insert(shown.end(), piece.left.begin(), piece.left.end());
+  for (const std::vector<ShownCell>& cells : left)
+    shown.insert(shown.end(), cells.begin(), cells.end());
   return shown;
 }
 
