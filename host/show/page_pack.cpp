@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <limits>
 #include <new>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 #ifdef VKH_HAS_ZLIB
 #include <zlib.h>
 #endif
@@ -19,8 +22,10 @@ constexpr uint32_t kUnknown = UINT32_MAX;
 
 /// Appends numbers as one stream for each of their bytes, the lowest first.
 void append_streams(std::string& out, const std::vector<uint32_t>& numbers, int bytes) {
+  size_t at = out.size();
+  out.resize(at + numbers.size() * static_cast<size_t>(bytes));
   for (int i = 0; i < bytes; ++i) {
-    for (const uint32_t number : numbers) out += static_cast<char>(number >> (8 * i) & 0xff);
+    for (const uint32_t number : numbers) out[at++] = static_cast<char>(number >> (8 * i) & 0xff);
   }
 }
 
@@ -126,17 +131,76 @@ double farthest_of(const ShownMesh& shown) {
   return most > 0 ? most : 1;
 }
 
-std::string deflated(std::string bytes) {
 #ifdef VKH_HAS_ZLIB
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string out(size, '\0');
-  const int result =
-      compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 6);
-  if (result != Z_OK) throw std::bad_alloc();  // sizes exclude all other errors
-  out.resize(size);
-  return out;
+
+/// Deflates parts of at most `bytes` in all to one text, each part by a strategy of its own.
+class Deflating {
+ public:
+  Deflating(size_t bytes, int level, int strategy) : level_(level) {
+    constexpr int kWindow = 15, kMemory = 8;  // zlib's own
+    constexpr size_t kOfParts = 1024;         // more than the end of a part takes
+    if (deflateInit2(&stream_, level, Z_DEFLATED, kWindow, kMemory, strategy) != Z_OK)
+      throw std::bad_alloc();
+    out_.resize(deflateBound(&stream_, static_cast<uLong>(bytes)) + kOfParts);
+    stream_.next_out = reinterpret_cast<Bytef*>(out_.data());
+    stream_.avail_out = static_cast<uInt>(out_.size());
+  }
+  Deflating(const Deflating&) = delete;
+  Deflating& operator=(const Deflating&) = delete;
+  ~Deflating() { deflateEnd(&stream_); }
+
+  /// `next`: the strategy of what follows.
+  void add(std::string_view bytes, int next) {
+    run(bytes, Z_NO_FLUSH);
+    deflateParams(&stream_, level_, next);
+  }
+  std::string finished(std::string_view bytes) {
+    if (run(bytes, Z_FINISH) != Z_STREAM_END) throw std::logic_error("a mesh was not deflated");
+    out_.resize(stream_.total_out);
+    return std::move(out_);
+  }
+
+ private:
+  int run(std::string_view bytes, int flush) {
+    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+    stream_.avail_in = static_cast<uInt>(bytes.size());
+    return deflate(&stream_, flush);
+  }
+
+  const int level_;
+  z_stream stream_{};
+  std::string out_;
+};
+
+constexpr int kQuick = 3, kThorough = 6;
+
+/// Whether a code for each byte makes bytes about as short as a search for what repeats, which
+/// takes eight times as long. A sample tells.
+bool is_noise(std::string_view bytes) {
+  constexpr size_t kPieces = 16, kPiece = 4096;
+  constexpr double kAbout = 1.03;
+  std::string sample;
+  for (size_t i = 0; i < kPieces; ++i) sample += bytes.substr(bytes.size() / kPieces * i, kPiece);
+  const auto size = [&](int strategy) {
+    return static_cast<double>(Deflating(sample.size(), kQuick, strategy).finished(sample).size());
+  };
+  return size(Z_HUFFMAN_ONLY) <= kAbout * size(Z_DEFAULT_STRATEGY);
+}
+
+#endif
+
+/// Deflates in zlib's format. Behind the first `alike` bytes are differences of distances, in which
+/// little repeats unless a mesh does.
+std::string deflated(std::string bytes, size_t alike) {
+#ifdef VKH_HAS_ZLIB
+  const std::string_view first = std::string_view(bytes).substr(0, alike);
+  const std::string_view rest = std::string_view(bytes).substr(alike);
+  const bool has_noise = is_noise(rest);
+  Deflating all(bytes.size(), has_noise ? kQuick : kThorough, Z_DEFAULT_STRATEGY);
+  if (has_noise) all.add(first, Z_HUFFMAN_ONLY);
+  return all.finished(has_noise ? rest : std::string_view(bytes));
 #else
+  (void)alike;
   return bytes;
 #endif
 }
@@ -157,10 +221,11 @@ PackedMesh packed(const ShownMesh& shown) {
   std::string bytes;
   append_streams(bytes, corners.codes, 3);
   append_streams(bytes, positions_of(shown, corners.order), 2);
+  const size_t alike = bytes.size();
   append_streams(bytes, distances_of(shown, unit), 3);
   append_streams(bytes, widths_of(shown, unit), 2);
   append_streams(bytes, flags_of(shown), 1);
-  return {corners.order.size(), shown.faces.size(), unit, deflated(std::move(bytes))};
+  return {corners.order.size(), shown.faces.size(), unit, deflated(std::move(bytes), alike)};
 }
 
 }  // namespace vkh
