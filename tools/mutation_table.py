@@ -23,6 +23,8 @@ TWO_DOUBLE = "host/native/two_double.h"
 IN_DOUBLES = "host/native/certified.h"
 PLACE = "host/native/place.h"
 SEPARATE = "host/native/separate.h"
+CELL_IN_DOUBLES = "host/native/cell.h"
+BOXES = "host/native/face_tree.h"
 
 ON_TWO = ["lib_two_float_test", "lib_attack_test", "lib_model_test"]
 ON_CERTIFIED = ["lib_attack_test", "lib_certified_test", "lib_model_test"]
@@ -37,6 +39,7 @@ ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
 ON_LENGTH = ["diagonal_test"]
 ON_DOUBLES = ["native_bounds_test"]
+ON_CELLS_IN_DOUBLES = ["native_cells_test"]
 
 
 def row(name, file, old, new, tests, nth=1):
@@ -192,7 +195,7 @@ ROWS = [
     row("face_score's limit", SCORE, "min((highest - reached) - tolerance, highest - within)", ["(highest - reached) - tolerance"], ON_TALLY),
     row("face_score's verdict", SCORE, "choose(reached > beyond, 0.0f, max(above, 0.0f))", ["max(above, 0.0f)"], ON_TALLY),
     row("widest's corners", SCORE, "max(b.upper_b - b.lower_b, b.upper_c - b.lower_c)", ["b.upper_b - b.lower_b"], ON_TALLY),
-    row("widest's lowest", SCORE, "return min(affine, b.highest - lowest);", ["return min(affine, 0.5f * (b.highest - lowest));"], ON_TALLY),
+    row("widest's lowest", SCORE, "return min(affine, b.highest - lowest_of(b));", ["return min(affine, 0.5f * (b.highest - lowest_of(b)));"], ON_TALLY),
     row("has_quarters' bits", SCORE, "& 3u) == 0u", ["& 1u) == 0u"], ON_TALLY),
     row("half_points' corner", SCORE, "(split - 1u) % 3u, 3u, half_side", ["split % 3u, 3u, half_side"], ON_TALLY),
 
@@ -354,12 +357,34 @@ ROWS = [
     row("bound_u1 in doubles", BOUNDS, "max(farther, 0.0f), 3.0f", ["max(farther, 0.0f), 1.0f", "max(farther, 0.0f), -2.0f"], ON_DOUBLES),
     row("bound_u2 in doubles", BOUNDS, "max3(d), 0.0f), 1.0f", ["max3(d), 0.0f), 0.0f", "max3(d), 0.0f), -2.0f"], ON_DOUBLES),
     row("enclosing_radius_up in doubles", TRIANGLE, "return round_up(r, 1.0f)", ["return round_up(r, 0.0f)", "return round_up(r, -2.0f)"], ON_DOUBLES),
+    counts("CellFrame::slack in doubles", CELL, "round_up({7.0f} * kUlp * cell.radius", ON_CELLS_IN_DOUBLES),
+    row("CellFrame::slack's reach in doubles", CELL, " + 16.0f * kUlp2 * cell.reach", [" + 4.0f * kUlp2 * cell.reach", ""], ON_CELLS_IN_DOUBLES),
+    row("CellFrame::radius in doubles", CELL, "cell.radius = radius_up(cell.at)", ["cell.radius = 0.5f * radius_up(cell.at)"], ON_CELLS_IN_DOUBLES),
+    counts("minorant_off's products in doubles", CELL, "round_up({5.0f} * kUlp * (t.radius", ON_CELLS_IN_DOUBLES),
+    row("minorant_off's slacks in doubles", CELL, "rounding + s.slack + t.slack", ["rounding + s.slack", "rounding + t.slack", "rounding"], ON_CELLS_IN_DOUBLES),
+    row("a cell's distance's slacks in doubles", CELL, "s.at, inside)) + (s.slack + t.slack)", ["s.at, inside)) + t.slack", "s.at, inside))"], ON_CELLS_IN_DOUBLES),
+    row("what is beyond the best in doubles", CELL, "is_beyond(m.at_corners, g.best)", ["is_beyond(m.at_corners, 0.5f * g.best)"], ON_CELLS_IN_DOUBLES),
+    row("plane_above's cuts in doubles", CELL, "max(max(p - on_p, q - on_q), 0.0f)", ["max(p - on_p, 0.0f)", "0.0f"], ON_CELLS_IN_DOUBLES),
+    row("plane_above's rounding in doubles", CELL, "to_p * at.y, 4.0f", ["to_p * at.y, 0.0f", "to_p * at.y, -4.0f", "to_p * at.y, -12.0f"], ON_CELLS_IN_DOUBLES),
+    row("a cut's third piece in doubles", CELL, "1.0f - to_p, to_p * (1.0f - to_q)", ["1.0f - to_p, 0.0f"], ON_CELLS_IN_DOUBLES),
+    row("the least of all lower bounds in doubles", CELL, "g.at_corners = min(g.at_corners, m.at_corners)", ["g.at_corners = m.at_corners"], ON_CELLS_IN_DOUBLES),
+    row("shortened in doubles", PARTS, "1.0f - 8.0f * kUlp, norm_up(r)) * r", ["1.0f + 1.0f * kUlp, norm_up(r)) * r", "1.0f + 4.0f * kUlp, norm_up(r)) * r"], ON_CELLS_IN_DOUBLES),
+    row("a reach's slack", CELL_IN_DOUBLES, "g.highest + t.radius + t.slack", ["g.highest + t.radius"], ON_CELLS_IN_DOUBLES),
+    row("a reach's float", CELL_IN_DOUBLES, "float_above(far * far)", ["static_cast<float>(far * far)"], ON_CELLS_IN_DOUBLES),
+    row("a box's distance's slack", CELL_IN_DOUBLES, " - 0x1p-74 - t.slack", [" - 0x1p-74"], ON_CELLS_IN_DOUBLES),
+    row("a box's distance's underflow", CELL_IN_DOUBLES, " - 0x1p-74", [" - 0x1p-76", ""], ON_CELLS_IN_DOUBLES),
+    row("a box's distance's roundings", CELL_IN_DOUBLES, "round_down(root(distance2), 2.0)",
+        ["round_down(root(distance2), 1.0)", "round_down(root(distance2), 0.0)", "round_down(root(distance2), -1.0)", "root(distance2)"],
+        ON_CELLS_IN_DOUBLES),
+    row("floats below", BOXES, "f - (std::fabs(f) * 0x1p-23f", ["f - (std::fabs(f) * 0x1p-24f", "f - (std::fabs(f) * 0x1p-25f"], ON_CELLS_IN_DOUBLES),
+    row("floats above", BOXES, "f + (std::fabs(f) * 0x1p-23f", ["f + (std::fabs(f) * 0x1p-24f", "f + (std::fabs(f) * 0x1p-25f"], ON_CELLS_IN_DOUBLES),
 ]
 
 QUICK = {"kUlp2", "norm_up", "bound_u2's worst corner", "place's second edge"}
 
 # Rows that no test can notice, and why.
 EXPECTED_SURVIVORS = {
+    "CellFrame::slack's reach in doubles": "A's vertices have no low parts there: what is so small beside the reach is exact in two doubles",
     "enclosing_radius_up in doubles": "norm_up leaves 1.5 u of 3, and three differences are seldom all that wrong",
     "sharp_norm_above_up in doubles": "norm_up has 1.5 u left, and surfaces of 48 bits, which it is for, are not used there",
     "sharp_norm_up's low square": "at most a quarter of an ulp of the length; the two steps are worth more",

@@ -142,7 +142,7 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
   options.map = map_options(at);
   options.time_limit_s = survey_time(at, left);
   if (question.budget.effort) options.effort = *question.budget.effort;
-  const bool on_cpu = at.solver.description().type == "cpu";
+  const bool on_cpu = at.solver.description().is_processor();
   SideCount heard{.back = side.back,
                   .faces = side.from.faces.size(),
                   .effort = question.budget.effort.value_or(default_effort(on_cpu))};

@@ -678,7 +678,7 @@ std::vector<Option> options_of_many() {
 
 std::vector<Option> options_of_cost() {
   const std::string device = "An index from 'doctor', gpu, cpu, or part of a name";
-  const std::string native = "; native: this processor without Vulkan, for distances and limits";
+  const std::string native = "; native: this processor without Vulkan, for distances and figures";
   const std::string best = " [best: discrete, integrated, virtual, CPU]";
   return {
       {.name = "max-input",
@@ -697,8 +697,10 @@ std::vector<Option> options_of_cost() {
                  .help =
                      device + "; several, 0,1, or all GPUs, each for a part of A" + native + best,
                  .more = {"all", "native"}},
-                {.of = kGate | kDemo | kDoctor, .help = device + native + best, .more = {"native"}},
-                {kMetrics | kSimplify, device + best},
+                {.of = kGate | kMetrics | kDemo | kDoctor,
+                 .help = device + native + best,
+                 .more = {"native"}},
+                {kSimplify, device + best},
                 {.of = kBatch,
                  .help = "Devices, between commas, as 'doctor' names them; all: every GPU" +
                          native + " [the best]",
@@ -713,7 +715,7 @@ std::vector<Option> options_of_cost() {
        .kind = Kind::kCount,
        .group = Group::kCost,
        .target = to<&Question::threads>,
-       .uses = {{kDistance | kGate | kBatch | kDemo,
+       .uses = {{kDistance | kGate | kMetrics | kBatch | kDemo,
                  "Threads of --device native; answers are the same for any number [one a core]"}},
        .noun = "threads",
        .least = 1,

@@ -146,14 +146,8 @@ std::vector<Rule> rules_of_devices() {
            "{threads}: are of {device} native"},
           {{"device"},
            is_native,
-           "{device} native: has distances and limits alone; this command needs a Vulkan device",
-           kMetrics | kSimplify},
-          {{"stats",      "signed",  "bands",       "area",       "field",       "field-tol",
-            "image",      "report",  "figures-csv", "points-out", "certificate", "image-dir",
-            "report-dir", "metrics", "effort",      "face-max",   "face-max-b",  "align",
-            "verify",     "preset",  "enable",      "disable"},
-           is_native,
-           "{option}: needs a Vulkan device: {device} native has distances and limits alone"}};
+           "{device} native: has distances, limits and figures; this command needs a Vulkan device",
+           kSimplify}};
 }
 
 std::vector<Rule> rules_of_simplify() {
@@ -168,17 +162,25 @@ std::vector<Rule> rules_of_simplify() {
            kSimplify}};
 }
 
-bool needs_vulkan(const Question& q) {
-  const EngineOptions& engine = q.engine;
-  const bool has_preset = !engine.preset.empty() && engine.preset != preset_names().front();
-  return q.asks_for_cells() || q.align || q.verify || q.is_by_face() || has_preset ||
-         !engine.enabled.empty() || !engine.disabled.empty();
-}
+/// What only a Vulkan device does, by the option that asks for it.
+struct OfDevices {
+  const char* option;
+  bool (*is_asked)(const Question&);
+};
+constexpr OfDevices kOfDevices[] = {
+    {"align", [](const Question& q) { return q.align; }},
+    {"certificate", [](const Question& q) { return q.certificate; }},
+    {"verify", [](const Question& q) { return q.verify; }},
+    {"face-max", [](const Question& q) { return !q.face_max_a.empty() || q.face_limits_a; }},
+    {"face-max-b", [](const Question& q) { return !q.face_max_b.empty(); }},
+    {"preset",
+     [](const Question& q) {
+       return !q.engine.preset.empty() && q.engine.preset != preset_names().front();
+     }},
+    {"enable", [](const Question& q) { return !q.engine.enabled.empty(); }},
+    {"disable", [](const Question& q) { return !q.engine.disabled.empty(); }}};
 
 constexpr QuestionRule kQuestionRules[] = {
-    {[](const Question& q) { return q.is_native() && needs_vulkan(q); },
-     "{device} native: has distances and limits alone; figures, sides, pictures, "
-     "certificates, fits, limits of faces, {verify} and presets need a Vulkan device"},
     {[](const Question& q) { return q.metrics && (!q.symmetric || q.max); },
      "{metrics}: figures are of both directions and no verdict: leave out {max}, and a {symmetric} "
      "that is false"},
@@ -244,8 +246,17 @@ void check_figure(const Question& question, const std::string& figure, const Nam
     throw UsageError(option + ": give the angle by " + naming("normals"));
 }
 
+void refuse_natively_asked(const Question& question, const Naming& naming) {
+  for (const OfDevices& one : kOfDevices) {
+    if (one.is_asked(question))
+      throw UsageError(worded("{option}: needs a Vulkan device, which {device} native is not",
+                              one.option, naming));
+  }
+}
+
 /// `is_all`: nothing is still to be filled in.
 void check_question(const Question& question, const Naming& naming, bool is_all) {
+  if (question.is_native()) refuse_natively_asked(question, naming);
   for (const QuestionRule& rule : kQuestionRules) {
     if ((is_all || !rule.is_of_all) && rule.when(question))
       throw UsageError(worded(rule.says, "", naming));

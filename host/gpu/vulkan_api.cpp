@@ -19,7 +19,7 @@ VulkanApi load_vulkan() {
       reinterpret_cast<PFN_vkGetInstanceProcAddr>(vulkan_loader_function("vkGetInstanceProcAddr"));
   if (vk.GetInstanceProcAddr == nullptr)
     throw DeviceError(std::string("no Vulkan loader (") + kVulkanLoader +
-                      "); distances and limits are to be had without, by device native");
+                      "); distances, limits and figures are to be had without, by device native");
 #ifdef VKH_DEBUGGING
   vk.GetInstanceProcAddr = with_shader_folder(vk.GetInstanceProcAddr);
 #endif

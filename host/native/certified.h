@@ -61,7 +61,8 @@ inline double sharp_norm_above_up(const Two3& v, double base) {
 /// <= a / b for a > 0 and b > 0: a quotient's rounding, and that of a, which is a difference.
 inline double quotient_down(double a, double b) { return round_down(a / b, 1.0); }
 
-/// For fine_separation_down, which doubles do not need: it has no definition.
+/// For fine_separation_down and part_above, which doubles do not need: they have no definitions.
 double quotient_above_down(const Two& reach, double off, const Two3& r, double base);
+double sqrt_up(double x);
 
 }  // namespace vkh::native

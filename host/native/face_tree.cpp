@@ -8,24 +8,8 @@
 namespace vkh::native {
 namespace {
 
-// Floats below and above x by more than a rounding.
-float float_below(double x) {
-  const auto f = static_cast<float>(x);
-  return f - (std::fabs(f) * 0x1p-23f + std::numeric_limits<float>::min());
-}
-float float_above(double x) {
-  const auto f = static_cast<float>(x);
-  return f + (std::fabs(f) * 0x1p-23f + std::numeric_limits<float>::min());
-}
-
-struct FloatPoint {
-  std::array<float, 3> below, above;
-  explicit FloatPoint(const vec3& p)
-      : below{float_below(p.x), float_below(p.y), float_below(p.z)},
-        above{float_above(p.x), float_above(p.y), float_above(p.z)} {}
-};
-
-// Six roundings of a square and its sums, and the one of a distance that it is compared with.
+// Six roundings of a square and its sums, and the one of a distance that it is compared with. What
+// underflows adds 2^-148 at most.
 constexpr float kRoundings = 1 - 0x1p-20f;
 
 // The squared distances of a node's boxes from the point, rounded down, and a bit for each that is
@@ -166,47 +150,53 @@ void FaceTree::set_child(std::vector<Item>& items, uint32_t node, uint32_t lane,
   nodes_[node].child[lane] = child;
 }
 
-namespace {
-
-struct Waiting {
-  float distance2;
-  uint32_t child;
-};
+Walk::Walk(const FaceTree& tree, const vec3& p) : tree_(tree), point_(p) {
+  waiting_[count_++] = {0, 0};
+}
 
 // Puts those of a node's children that are in reach on the stack, the nearest last.
-template <class Node, class Stack>
-void push_children(const Node& node, const Reached& reached, Stack& stack, size_t& depth) {
-  const size_t first = depth;
+void Walk::open(uint32_t node, float reach2) {
+  const FaceTree::Node& n = tree_.nodes_[node];
+  const Reached reached = reached_boxes(n, point_, reach2);
+  const size_t first = count_;
   for (unsigned left = reached.lanes; left != 0; left &= left - 1) {
     const auto i = static_cast<size_t>(std::countr_zero(left));
-    const Waiting next{reached.distance2[i], node.child[i]};
-    size_t at = depth++;
-    for (; at > first && stack[at - 1].distance2 < next.distance2; --at) stack[at] = stack[at - 1];
-    stack[at] = next;
+    const Waiting next{reached.distance2[i], n.child[i]};
+    size_t at = count_++;
+    for (; at > first && waiting_[at - 1].distance2 < next.distance2; --at)
+      waiting_[at] = waiting_[at - 1];
+    waiting_[at] = next;
   }
 }
 
-}  // namespace
+Leaf Walk::next(float reach2) {
+  while (count_ > 0) {
+    const Waiting top = waiting_[--count_];
+    if (!(top.distance2 <= reach2)) continue;
+    if ((top.child & FaceTree::kLeafFlag) == 0) {
+      open(top.child, reach2);
+      continue;
+    }
+    const uint32_t begin = top.child & ((1u << FaceTree::kCountShift) - 1);
+    const uint32_t more = (top.child & ~FaceTree::kLeafFlag) >> FaceTree::kCountShift;
+    return {begin, begin + more + 1};
+  }
+  return {};
+}
+
+float Walk::least_left(float reach2) const {
+  float least = reach2;
+  for (size_t i = 0; i < count_; ++i) least = std::min(least, waiting_[i].distance2);
+  return least;
+}
 
 Nearest FaceTree::nearest(const vec3& p, Nearest best) const {
-  const FloatPoint point(p);
-  std::array<Waiting, kStack> stack;
-  size_t depth = 0;
-  float reach2 = float_above(best.distance2);
-  for (uint32_t child = 0;;) {
-    if ((child & kLeafFlag) == 0) {
-      push_children(nodes_[child], reached_boxes(nodes_[child], point, reach2), stack, depth);
-    } else {
-      const uint32_t begin = child & ((1u << kCountShift) - 1);
-      const uint32_t count = ((child & ~kLeafFlag) >> kCountShift) + 1;
-      for (uint32_t i = begin; i < begin + count; ++i) try_triangle(p, i, best);
-      if (best.distance2 == 0) return best;  // as are half of the vertices of a coarser copy
-      reach2 = float_above(best.distance2);
-    }
-    do {
-      if (depth == 0) return best;
-      child = stack[--depth].child;
-    } while (!(stack[depth].distance2 <= reach2));
+  Walk walk(*this, p);
+  for (;;) {
+    const Leaf leaf = walk.next(float_above(best.distance2));
+    if (leaf.is_none()) return best;
+    for (uint32_t i = leaf.begin; i < leaf.end; ++i) try_triangle(p, i, best);
+    if (best.distance2 == 0) return best;  // as are half of the vertices of a coarser copy
   }
 }
 

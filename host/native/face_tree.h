@@ -1,9 +1,11 @@
-// Boxes of floats, four a node, over B's triangles of doubles. It steers: an upper bound holds for
-// whichever triangle it finds, and no lower bound rests on it. Boxes are rounded outward and points
-// too, so that it finds the nearest triangle to within rounding of doubles.
+// Boxes of floats, four a node, over B's triangles of doubles. Boxes are rounded outward and points
+// too, so that none is farther than what it holds. A search for the nearest triangle steers: an
+// upper bound holds for whichever it finds. Bounds of cells from below rest on the boxes (Walk).
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -17,10 +19,37 @@ struct Nearest {
   uint32_t place = kNone;
 };
 
+/// Floats below and above x. The float nearest to x is off by half a unit in its last place, or by
+/// 2^-150; what is taken off is one unit and 2^-126 at least, and rounding leaves a unit of it. So
+/// they are below and above any sum x + y, too, where |y| is 2^-53 of |x| at most.
+inline float float_below(double x) {
+  const auto f = static_cast<float>(x);
+  return f - (std::fabs(f) * 0x1p-23f + std::numeric_limits<float>::min());
+}
+inline float float_above(double x) {
+  const auto f = static_cast<float>(x);
+  return f + (std::fabs(f) * 0x1p-23f + std::numeric_limits<float>::min());
+}
+
+/// A point between floats.
+struct FloatPoint {
+  std::array<float, 3> below, above;
+  explicit FloatPoint(const vec3& p)
+      : below{float_below(p.x), float_below(p.y), float_below(p.z)},
+        above{float_above(p.x), float_above(p.y), float_above(p.z)} {}
+};
+
+/// Places of triangles in the tree's order.
+struct Leaf {
+  uint32_t begin = 0, end = 0;
+  bool is_none() const { return begin == end; }
+};
+
 class FaceTree {
  public:
   FaceTree(std::span<const vec3> vertices, std::span<const glm::uvec3> faces);
 
+  size_t count() const { return triangles_.size(); }
   const Corners& triangle(uint32_t place) const { return triangles_[place]; }
   uint32_t face(uint32_t place) const { return order_[place]; }
 
@@ -34,13 +63,11 @@ class FaceTree {
   Nearest nearest(const vec3& p, Nearest best) const;
 
  private:
+  friend class Walk;
   static constexpr uint32_t kWide = 4;
   static constexpr uint32_t kLeafFlag = 1u << 31;
   static constexpr uint32_t kCountShift = 28;  ///< of a leaf's triangles, less one
   static constexpr uint32_t kLeaf = 2;
-  /// Boxes of 2^28 triangles, halved twice a level, leave three of four behind.
-  static constexpr size_t kStack = 64;
-
   struct alignas(16) Node {
     std::array<std::array<float, kWide>, 3> lo, hi;
     std::array<uint32_t, kWide> child;
@@ -63,6 +90,33 @@ class FaceTree {
   std::vector<uint32_t> order_;
   std::vector<Corners> triangles_;
   std::vector<Node> nodes_;
+};
+
+/// Goes over the leaves of a tree around a point, of a node's boxes the nearest first.
+class Walk {
+ public:
+  /// The tree outlives it.
+  Walk(const FaceTree& tree, const vec3& p);
+
+  /// The next leaf whose box, by its squared distance rounded down, is not beyond `reach2`; none is
+  /// left: an empty one. A reach may fall from call to call, and is under 2^127.
+  Leaf next(float reach2);
+  /// <= the squared distance of all triangles that are left, or reach2 if that is less.
+  float least_left(float reach2) const;
+
+ private:
+  /// Boxes of 2^28 triangles, halved twice a level, leave three of four behind.
+  static constexpr size_t kStack = 64;
+  struct Waiting {
+    float distance2;
+    uint32_t child;
+  };
+  void open(uint32_t node, float reach2);
+
+  const FaceTree& tree_;
+  const FloatPoint point_;
+  std::array<Waiting, kStack> waiting_;
+  size_t count_ = 0;
 };
 
 }  // namespace vkh::native

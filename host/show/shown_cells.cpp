@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "host/base/parallel.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 
 namespace vkh {
 namespace {

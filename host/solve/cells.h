@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,25 @@ struct PointBatch {
   std::span<gpu::ClosestFace> found;  ///< as many
   bool has_low = false;               ///< B's vertices have low parts
 };
+
+/// What is known of a cell before it is bounded: no distance is above `farthest`.
+inline gpu::CellBounds unknown_bounds(float farthest) {
+  return {.lower_a = 0,
+          .lower_b = 0,
+          .lower_c = 0,
+          .upper_a = farthest,
+          .upper_b = farthest,
+          .upper_c = farthest,
+          .highest = farthest,
+          .reached = 0,
+          .mean_upper = farthest,
+          .square_upper = std::numeric_limits<float>::max(),
+          .face_a = gpu::kNone,
+          .face_b = gpu::kNone,
+          .face_c = gpu::kNone,
+          .face = gpu::kNone,
+          .triangle = gpu::kNone};
+}
 
 /// The cells to split: those whose score's bin is larger than `bin`, `above` of them, and the first
 /// `ties` of this bin.

@@ -1,12 +1,16 @@
 #include "host/solve/native_runs.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <deque>
 #include <iterator>
 
 #include "host/base/parallel.h"
 #include "host/base/system.h"
+#include "host/native/cells.h"
 #include "host/native/native.h"
+#include "host/solve/native_cells.h"
 #include "host/solve/run_report.h"
 #include "vkhausdorff/error.h"
 
@@ -52,6 +56,21 @@ native::NativeOptions native_options(const SolveOptions& options, size_t threads
   return out;
 }
 
+size_t memory_of(const SolveOptions& options) {
+  return options.memory_bytes != 0 ? options.memory_bytes : native::NativeOptions().memory_bytes;
+}
+
+size_t threads_of(const NativeProcessor& processor) {
+  return processor.threads != 0 ? processor.threads : thread_count();
+}
+
+void refuse_prepared(const PairView& pair) {
+  if (pair.prepared != nullptr) refuse_natively("a prepared mesh");
+}
+
+/// Their places are words.
+constexpr size_t kMostCells = size_t{1} << 31;
+
 void fill_counts(const native::NativeReport& r, Report& out) {
   constexpr const char* kNames[] = {"exact", "u1", "u2", "ha", "u3", "lower_raised", "precision"};
   static_assert(std::size(kNames) == std::tuple_size_v<decltype(r.closed)>);
@@ -80,7 +99,7 @@ Status status_of(const native::NativeReport& r, const Report& out, Status ended)
 }  // namespace
 
 DeviceDescription describe(const NativeProcessor& processor) {
-  const size_t threads = processor.threads != 0 ? processor.threads : thread_count();
+  const size_t threads = threads_of(processor);
   DeviceDescription d;
   d.name = "native, " + processor_name() + ", " + std::to_string(threads) +
            (threads == 1 ? " thread" : " threads");
@@ -90,12 +109,11 @@ DeviceDescription describe(const NativeProcessor& processor) {
 }
 
 void refuse_natively(const std::string& what) {
-  throw UsageError("the native solver encloses distances alone: " + what +
+  throw UsageError("the native solver has distances and surveys alone: " + what +
                    " needs a Vulkan device");
 }
 
 void check_native(const EngineOptions& options) {
-  if (options.cells) refuse_natively("a survey or a certificate");
   if (options.closest) refuse_natively("a search for closest points");
   if (options.coverage) refuse_natively("the check of coverage");
   const bool has_preset = !options.preset.empty() && options.preset != "default";
@@ -103,12 +121,53 @@ void check_native(const EngineOptions& options) {
     refuse_natively("another preset or switch");
 }
 
+namespace {
+
+/// Pairs whose A's cells can be bounded; they stay where they are.
+struct HeldNatively {
+  std::deque<native::PlacedPair> pairs;
+  std::deque<NativeCells> cells;
+
+  SurveyedPair add(const PairView& view, const SolveOptions& options, size_t threads) {
+    const Mesh &a = view.a, &b = view.b;
+    const native::PlacedPair& pair = pairs.emplace_back(a, b);
+    const size_t most = memory_of(options) / NativeCells::kBytesOfCell;
+    NativeCells& own = cells.emplace_back(pair, a, threads, std::min(most, kMostCells));
+    return {.a = a,
+            .b = b,
+            .frame = pair.frame(),
+            .displacement = pair.displacement(),
+            .farthest = pair.farthest(),
+            .on_cpu = true,
+            .bound = [&own](const CellBatch& batch) { own.bound(batch); },
+            .cells = &own};
+  }
+};
+
+}  // namespace
+
+void NativeRuns::hold(std::span<const PairView> pairs, const std::vector<SolveOptions>& options,
+                      const UsePairs& use) const {
+  HeldNatively held;
+  std::vector<SurveyedPair> surveyed;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    check_native(options[i].engine);
+    refuse_prepared(pairs[i]);
+    check_mesh(pairs[i].a);
+    check_mesh(pairs[i].b);
+    surveyed.push_back(held.add(pairs[i], options[i], threads_of(processor_)));
+    const Progress progress{.upper = surveyed[i].farthest, .pair = i};
+    if (options[i].progress && !options[i].progress(progress)) return;
+  }
+  use(surveyed);
+}
+
 std::vector<Report> NativeRuns::distances(std::span<const PairView> pairs,
                                           const std::vector<SolveOptions>& options) const {
   std::vector<Report> reports;
   for (size_t i = 0; i < pairs.size(); ++i) {
     check_native(options[i].engine);
-    if (pairs[i].prepared != nullptr) refuse_natively("a prepared mesh");
+    refuse_prepared(pairs[i]);
     reports.push_back(distance(pairs[i], options[i], i));
   }
   return reports;

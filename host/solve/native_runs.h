@@ -1,17 +1,19 @@
-// The runs of a Solver without a device: h(A,B) in doubles on the processor (host/native).
+// The runs of a Solver without a device: h(A,B), and cells of A, in doubles on the processor
+// (host/native).
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "host/solve/cells.h"
 #include "vkhausdorff/solver.h"
 
 namespace vkh {
 
 /// Throws UsageError: `what` is done on a device alone.
 [[noreturn]] void refuse_natively(const std::string& what);
-/// Refuses pipelines that only devices have: switches, surveys, closest points, coverage.
+/// Refuses pipelines that only devices have: switches, closest points, coverage.
 void check_native(const EngineOptions& options);
 
 /// Threads may share it.
@@ -24,6 +26,10 @@ class NativeRuns {
   /// Does one pair after the other. `options`: one for each.
   std::vector<Report> distances(std::span<const PairView> pairs,
                                 const std::vector<SolveOptions>& options) const;
+
+  /// As hold_pairs() does. `options`: one for each pair.
+  void hold(std::span<const PairView> pairs, const std::vector<SolveOptions>& options,
+            const UsePairs& use) const;
 
  private:
   Report distance(const PairView& pair, const SolveOptions& options, size_t number) const;

@@ -533,7 +533,8 @@ void hold_pairs(Solver& solver, std::span<const PairView> pairs, const SolveOpti
     run.time_limit_s = std::numeric_limits<double>::infinity();
     run.engine.cells = true;
   }
-  solver.on_device().hold(pairs, runs, use);
+  if (solver.native_ != nullptr) return solver.native_->hold(pairs, runs, use);
+  solver.impl_->hold(pairs, runs, use);
 }
 
 void hold_pair(Solver& solver, const PairView& pair, const SolveOptions& options,

@@ -36,7 +36,7 @@ constexpr unsigned kMostTries = 2;
 // lanes took half of the time of 3 on 16 cores (docs/log/metrics.md).
 LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device) {
   constexpr size_t kLanes = 3, kMostLanes = 8, kTogether = 16;
-  const bool on_cpu = device.type == "cpu" || device.type == kNative;
+  const bool on_cpu = device.is_processor();
   LaneShape shape;
   const size_t lanes =
       options.surveys ? std::clamp(thread_count() / 2, kLanes, kMostLanes) : kLanes;

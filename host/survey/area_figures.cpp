@@ -63,11 +63,24 @@ class Questions {
   size_t curve_ = 0;
 };
 
+// A larger share is reached no nearer: each end follows from the others', too, which were sought
+// apart.
+void put_in_order(std::span<const double> shares, std::span<Enclosure> at) {
+  for (size_t i = 0; i < at.size(); ++i) {
+    for (size_t j = 0; j < at.size(); ++j) {
+      if (!(shares[i] <= shares[j])) continue;
+      at[j].lower = std::max(at[j].lower, at[i].lower);
+      at[i].upper = std::min(at[i].upper, at[j].upper);
+    }
+  }
+}
+
 std::vector<Percentile> percentiles_of(AreaDistances& distances, const FiguresAsked& asked,
                                        const SurveyedPair& pair) {
   const std::vector<double>& shares = asked.options.percentiles;
-  const std::vector<Enclosure> at =
+  std::vector<Enclosure> at =
       distances.percentiles({shares, asked.resolution(distances.reached())});
+  put_in_order(shares, at);
   std::vector<Percentile> found;
   std::vector<Threshold> beside;
   for (size_t i = 0; i < at.size(); ++i) {

@@ -8,29 +8,11 @@
 #include <utility>
 
 #include "host/base/parallel.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 #include "shaders/survey/tally.h"
 
 namespace vkh {
 namespace {
-
-gpu::CellBounds unknown_bounds(float farthest) {
-  return {.lower_a = 0,
-          .lower_b = 0,
-          .lower_c = 0,
-          .upper_a = farthest,
-          .upper_b = farthest,
-          .upper_c = farthest,
-          .highest = farthest,
-          .reached = 0,
-          .mean_upper = farthest,
-          .square_upper = std::numeric_limits<float>::max(),
-          .face_a = gpu::kNone,
-          .face_b = gpu::kNone,
-          .face_c = gpu::kNone,
-          .face = gpu::kNone,
-          .triangle = gpu::kNone};
-}
 
 void raise(float& most, float value) {
   const std::atomic_ref<float> shared(most);

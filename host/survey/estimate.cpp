@@ -10,7 +10,7 @@
 #include "host/base/parallel.h"
 #include "host/mesh/closest.h"
 #include "host/mesh/triangle_tree.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 
 namespace vkh {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "host/base/parallel.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 #include "host/survey/sides.h"
 #include "shaders/survey/score.h"
 #include "vkhausdorff/length.h"

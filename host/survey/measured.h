@@ -9,7 +9,7 @@
 
 #include "host/mesh/closest.h"
 #include "host/mesh/triangle_tree.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 #include "vkhausdorff/frame.h"
 #include "vkhausdorff/mesh.h"
 

@@ -12,8 +12,8 @@
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/same_faces.h"
+#include "host/solve/cell_corners.h"
 #include "host/solve/held_pairs.h"
-#include "host/survey/cell_corners.h"
 #include "host/survey/proof_tree.h"
 
 namespace vkh {

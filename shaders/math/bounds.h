@@ -9,6 +9,7 @@
 #ifndef VKH_SHADERS_MATH_BOUNDS_H
 #define VKH_SHADERS_MATH_BOUNDS_H
 
+#include "shaders/math/marked.h"
 #include "shaders/math/triangle.h"
 
 VKH_LIB_BEGIN
@@ -65,18 +66,6 @@ VKH_FN Two3 corner_at(Patch t, uint i) {
   p.lo = choose(i == 0u, t.a.lo, choose(i == 1u, t.b.lo, t.c.lo));
   return p;
 }
-
-// d or the float above it: the one whose last bit says whether the closest point is inside of its
-// triangle. A zero of either sign counts as 0. The bit steers the cut of u3 (from_cut) and
-// nothing else, so a device that flushes the float above 0 may lose it.
-VKH_FN float marked(float d, bool inside) {
-  uint bits = floatBitsToUint(d);
-  bits = choose(bits == 0x80000000u, 0u, bits);
-  uint step = (bits & 1u) ^ choose(inside, 1u, 0u);
-  return uintBitsToFloat(choose((bits >> 31) != 0u, bits - step, bits + step));
-}
-
-VKH_FN bool is_marked(float d) { return (floatBitsToUint(d) & 1u) != 0u; }
 
 // >= d(p, S) - base, marked.
 VKH_FN float corner_distance(Two3 p, Surface s) {

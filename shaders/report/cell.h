@@ -193,17 +193,27 @@ VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
   return with_distances(g, cell_distances(t, s), triangle);
 }
 
-// Examines S, too. Its own direction is from its closest point to the centre. It is left out if it
-// is beyond the best so far: that stays, or is beyond one that does. None is beyond itself or its
-// equal, since a minorant is lowered.
-VKH_FN Gathered gathered(Gathered g, CellFrame t, Surface s, uint triangle) {
+// S's minorant: its own direction is from its closest point to the centre.
+VKH_FN Minorant minorant_of(Gathered g, CellFrame t, Surface s) {
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   float off = minorant_off(t, s);
   Minorant m = minorant(t, s, shortened(c.offset), off);
-  m = better(m, minorant(t, s, g.along, off), g.below);
-  if (is_beyond(m.at_corners, g.best)) return g;
+  return better(m, minorant(t, s, g.along, off), g.below);
+}
+
+// Takes in S's minorant, if S is beyond none.
+VKH_FN Gathered with_minorant(Gathered g, Minorant m) {
   g.centre = min(g.centre, m.centre);
   g.at_corners = min(g.at_corners, m.at_corners);
+  return g;
+}
+
+// Examines S, too. It is left out if it is beyond the best so far: that stays, or is beyond one
+// that does. None is beyond itself or its equal, since a minorant is lowered.
+VKH_FN Gathered gathered(Gathered g, CellFrame t, Surface s, uint triangle) {
+  Minorant m = minorant_of(g, t, s);
+  if (is_beyond(m.at_corners, g.best)) return g;
+  g = with_minorant(g, m);
   if (!may_be_nearer(g, m)) return g;
   return with_distances(g, cell_distances(t, s), triangle);
 }

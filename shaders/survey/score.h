@@ -22,12 +22,28 @@ VKH_FN float square_width(TallyBounds b) {
   return max(b.square_upper - square_over_down(b.lower), 0.0f);
 }
 
+// No point of the cell is nearer.
+VKH_FN float lowest_of(CellBounds b) {
+  return max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);
+}
+
 // The most by which the distance of a point of the cell, and what is drawn there, are apart. Both
 // lie between two affine functions, which are farthest apart at a corner, and between two numbers.
 VKH_FN float widest(CellBounds b) {
   float affine = max(b.upper_a - b.lower_a, max(b.upper_b - b.lower_b, b.upper_c - b.lower_c));
-  float lowest = max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);
-  return min(affine, b.highest - lowest);
+  return min(affine, b.highest - lowest_of(b));
+}
+
+// What a map scores, of steps `step` up to a distance of `most`; 0: there is none.
+VKH_FN float map_score(CellBounds b, float step, float most) {
+  float wider = max(widest(b) - step, 0.0f);
+  return choose(step == 0.0f || lowest_of(b) > most, 0.0f, wider);
+}
+
+// The cell's share of A's area, of which its face has a weight.
+VKH_FN float share_of_area(Wide of_face, float of_whole, Bary3 at) {
+  float weight = float(of_face.high) * 4294967296.0f + float(of_face.low);
+  return (weight * of_whole) * uintBitsToFloat((127u - halvings_of(at)) << 23);
 }
 
 // So much a cell is in its face's way: by it the face may be farther than it is known to reach.
@@ -70,7 +86,7 @@ VKH_FN uint score_bin(float score) {
 // Keeps what a split leaves of a cell's bounds until its parts have theirs: an affine function
 // has other values at a part's corners.
 VKH_FN CellBounds bounds_of_parts(CellBounds b) {
-  float lowest = max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);
+  float lowest = lowest_of(b);
   b.lower_a = lowest;
   b.lower_b = lowest;
   b.lower_c = lowest;

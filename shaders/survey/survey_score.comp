@@ -20,13 +20,6 @@ layout(scalar, push_constant) uniform PushBlock { SurveyPush push; };
 
 shared uint counts[kScoreBins];
 
-// The cell's share of A's area.
-float area_of(Cell cell, Bary3 at) {
-  Wide w = weights[cell.face];
-  float of_face = (float(w.high) * 4294967296.0 + float(w.low)) * plan.of_whole;
-  return of_face * uintBitsToFloat((127u - halvings_of(at)) << 23);
-}
-
 float score_of(CellBounds of_cell) {
   bool is_open = plan.mean > 0.0 || plan.square > 0.0 || plan.open_count > 0u;
   if (!is_open) return 0.0;
@@ -38,11 +31,6 @@ float score_of(CellBounds of_cell) {
   for (uint i = 0u; i < plan.open_count; ++i)
     score += plan.shares[i] * undecided_share(b, plan.open[i]);
   return score;
-}
-
-float map_score(CellBounds b, float lowest) {
-  if (plan.map_step == 0.0 || lowest > plan.map_most) return 0.0;
-  return max(widest(b) - plan.map_step, 0.0);
 }
 
 float score_for_face(uint i, float highest) {
@@ -58,17 +46,16 @@ struct Key {
 
 Key key_of(uint i) {
   CellBounds b = bounds[i];
-  float lowest = max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0);
   float of_face = score_for_face(i, b.highest);
   Key none = Key(0u, of_face > 0.0);
-  if (b.highest - lowest <= kScoreFloor) return none;
+  if (b.highest - lowest_of(b) <= kScoreFloor) return none;
   float score = score_of(b);
-  float of_map = map_score(b, lowest);
+  float of_map = map_score(b, plan.map_step, plan.map_most);
   if (!(score > 0.0) && !(of_map > 0.0) && !(of_face > 0.0)) return none;
   Cell cell = cells[i];
   Bary3 at = unpack_corners(cell.corners);
   if (!has_quarters(at)) return none;
-  float area = area_of(cell, at);
+  float area = share_of_area(weights[cell.face], plan.of_whole, at);
   if (area > plan.map_area) score += of_map;
   return Key(score_bin(score * area + of_face), false);
 }

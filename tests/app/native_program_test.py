@@ -22,7 +22,8 @@ PROGRAM = pathlib.Path(sys.argv.pop(1)).resolve()
 NO_DRIVER = {"VK_DRIVER_FILES": "/nowhere/icd.json", "VK_ICD_FILENAMES": "/nowhere/icd.json"}
 NATIVE = ("--device", "native")
 PASS, FAIL, USAGE, OPEN = 0, 1, 2, 3
-OF_THE_RUN = ("started", "times", "device", "arguments")
+OF_THE_RUN = ("started", "times", "device", "arguments", "wall_ms")
+OF_CELLS = ("curve", "unsigned")  # not of the meshes alone
 
 
 def stripped(found):
@@ -39,6 +40,16 @@ def ends(found):
 
 def meet(x, y):
     return max(ends(x)[0], ends(y)[0]) <= min(ends(x)[1], ends(y)[1])
+
+
+def enclosures(found, path=""):
+    """Every lower and upper end of an answer, by its path."""
+    if isinstance(found, list):
+        return {key: ends for i, value in enumerate(found) for key, ends in enclosures(value, f"{path}[{i}]").items()}
+    if not isinstance(found, dict):
+        return {}
+    own = {path: (found["lower"], found["upper"])} if isinstance(found.get("lower"), (int, float)) and isinstance(found.get("upper"), (int, float)) else {}
+    return own | {key: ends for name, value in found.items() if name not in OF_CELLS for key, ends in enclosures(value, f"{path}/{name}").items()}
 
 
 def bent(n, by):
@@ -127,19 +138,61 @@ class Native(unittest.TestCase):
         said = self.run_with("distance", "inner.ply", "outer.ply", *NATIVE, code=PASS).stdout
         self.assertRegex(said, r"device     native, .*, \d+ threads?\n")
 
+    def figures_meet(self, native, device):
+        """All enclosures that both answers have meet; returns how many."""
+        of_native, of_device = enclosures(native), enclosures(device)
+        for path, (lower, upper) in of_native.items():
+            if path in of_device:
+                self.assertLessEqual(max(lower, of_device[path][0]), min(upper, of_device[path][1]), path)
+        return len(of_native.keys() & of_device.keys())
+
+    def test_figures_meet_the_device_s(self):
+        for a, b in (("inner", "outer"), ("sheet", "flat"), ("flat", "sheet"), ("far", "far")):
+            for words, least in ((("distance", "--stats", "--bands=0.01abs,0.05abs", "--field-tol=0.001abs"), 10), (("distance", "--signed", "--symmetric"), 8),
+                                 (("metrics", "--normals=20"), 10), (("gate", "--max=0.05abs", "--area=5%"), 1), (("gate", "--max=+0.2abs,-0.2abs"), 1)):
+                with self.subTest(a=a, b=b, words=words):
+                    command = (words[0], f"{a}.ply", f"{b}.ply", *words[1:], "--effort=20000", "--json")
+                    native, device = self.run_with(*command, *NATIVE, **NO_DRIVER), self.run_with(*command)
+                    self.assertEqual(native.returncode, device.returncode, native.stderr + device.stderr)
+                    self.assertGreaterEqual(self.figures_meet(json.loads(native.stdout), json.loads(device.stdout)), least)
+
+    def test_figures_of_points(self):
+        words = ("distance", "points.xyz", "flat.ply", "--points=a", "--stats", "--signed")
+        self.assertGreaterEqual(self.figures_meet(self.answer(*words, *NATIVE), self.answer(*words)), 5)
+
+    def test_any_number_of_threads_gives_the_same_figures(self):
+        def figures(threads):
+            words = ("metrics", "outer.ply", "sheet.ply", "--effort=30000", *NATIVE, f"--threads={threads}")
+            return stripped(self.answer(*words, code=self.run_with(*words).returncode))
+
+        self.assertEqual(figures(1), figures(2))
+        self.assertEqual(figures(1), figures(16))
+
+    def test_pictures_and_pages(self):
+        for words, name in ((("--image=native.png",), "native.png"), (("--report=native.html",), "native.html"), (("--points-out=native.csv",), "native.csv")):
+            self.run_with("distance", "sheet.ply", "flat.ply", *words, "--effort=20000", *NATIVE, code=PASS, **NO_DRIVER)
+            self.assertGreater((self.folder / name).stat().st_size, 500)
+
+    def test_budgets_end_a_survey_with_true_figures(self):
+        for pair, more, ended in ((("outer.ply", "sheet.ply"), "--effort=1000", "effort"), (("sheet.ply", "inner.ply"), "--memory=400K", "memory"),
+                                  (("large.ply", "wide.ply"), "--time=3s", "time")):
+            with self.subTest(more):
+                words = ("distance", *pair, "--tol=1e-3", "--stats", "--json", *NATIVE)
+                found = json.loads(self.run_with(*words, more).stdout)
+                self.assertEqual(found["directions"][0]["survey"]["ended"], ended)
+                self.assertGreaterEqual(self.figures_meet(found, json.loads(self.run_with(*words, "--effort=300000").stdout)), 5)
+
     def test_what_needs_a_device_is_refused_before_the_files(self):
         refused = {
-            "distance": ("--stats", "--signed", "--align", "--verify", "--preset=paper", "--enable=u4", "--disable=u3", "--field=f.ply",
-                         "--image=i.png", "--report=r.html", "--points-out=p.csv", "--figures-csv=f.csv", "--certificate=c", "--field-tol=0.1abs"),
-            "gate": ("--max=+1abs,-2abs", "--face-max=limits.txt --max=1abs", "--max=1abs --area=5%"),
+            "distance": ("--align", "--verify", "--preset=paper", "--enable=u4", "--disable=u3", "--certificate=c"),
+            "gate": ("--face-max=limits.txt --max=1abs", "--face-max=a.txt --face-max-b=b.txt --symmetric --max=1abs"),
         }
         for command, options in refused.items():
             for option in options:
                 with self.subTest(option):
                     done = self.run_with(command, "no.ply", "file.ply", *option.split(), *NATIVE, code=USAGE)
-                    self.assertRegex(done.stderr, "Vulkan device")
+                    self.assertRegex(done.stderr, f"{option.split('=')[0]}: needs a Vulkan device")
                     self.assertEqual(done.stdout, "")
-        self.assertIn("Vulkan device", self.run_with("metrics", "no.ply", "file.ply", *NATIVE, code=USAGE).stderr)
         self.assertIn("Vulkan device", self.run_with("simplify", "no.ply", "--max=1abs", "--out=o.ply", *NATIVE, code=USAGE).stderr)
         self.assertIn("--threads", self.run_with("distance", "no.ply", "file.ply", "--threads=2", code=USAGE).stderr)
         self.assertIn("native", self.run_with("distance", "inner.ply", "outer.ply", "--device=native,0", code=USAGE).stderr)

@@ -13,7 +13,7 @@
 
 #include "host/show/page.h"
 #include "host/show/page_words.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 
 namespace vkh::test {
 

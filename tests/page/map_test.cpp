@@ -9,7 +9,7 @@
 #include "host/show/map_legend.h"
 #include "host/show/map_places.h"
 #include "host/show/map_scale.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 
 namespace {
 

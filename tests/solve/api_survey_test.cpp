@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/vkhausdorff_experimental.h"
+#include "host/solve/cell_corners.h"
 #include "host/solve/run.h"
-#include "host/survey/cell_corners.h"
 #include "shaders/survey/tally.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 #include "tests/shapes/adversarial.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/tally.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "host/base/parallel.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 #include "host/survey/survey_with.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/solver_bench.h"

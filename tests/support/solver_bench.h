@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -14,8 +15,14 @@
 
 namespace vkh::test {
 
+/// On the device; or, where VKH_TEST_NATIVE is set and not empty, on the processor alone.
+inline bool is_native() {
+  const char* asked = std::getenv("VKH_TEST_NATIVE");
+  return asked != nullptr && *asked != 0;
+}
+
 inline Solver& solver() {
-  static Solver& one = kept<Solver>(test_device());
+  static Solver& one = is_native() ? kept<Solver>(NativeProcessor{}) : kept<Solver>(test_device());
   return one;
 }
 

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "host/base/parallel.h"
-#include "host/survey/cell_corners.h"
+#include "host/solve/cell_corners.h"
 #include "host/survey/signed_figures.h"
 #include "host/survey/survey_with.h"
 #include "tests/shapes/shapes.h"

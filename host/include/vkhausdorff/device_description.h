@@ -20,6 +20,9 @@ struct DeviceDescription {
   uint64_t memory_bytes = 0;  ///< largest device-local heap
   bool usable = false;
   std::string reason;  ///< why it is not usable; empty otherwise
+
+  /// Whether the processor does a device's work: a CPU device, or kNative.
+  bool is_processor() const { return type == "cpu" || type == kNative; }
 };
 
 }  // namespace vkh

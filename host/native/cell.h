@@ -1,0 +1,31 @@
+// The bounds of a cell, shaders/report/cell.h and what it includes, with double for float as in
+// host/native/math.h; and which boxes of B they rest on. A cell's corners have 20 bits there and
+// here: shaders/math/bary.h has its positions.
+#pragma once
+
+#include "host/native/face_tree.h"
+#define float double
+#include "shaders/report/cell.h"
+#undef float
+
+namespace vkh::native {
+
+/// No two points are so far apart, and its square is a float.
+inline constexpr double kFarthest = 1e15;
+
+/// Boxes at more than this distance, squared, hold nothing that is closest anywhere on T, whose
+/// exact points and centre are off by its slack. float_above() takes a half of 2^-23 of it, and so
+/// the doubles' roundings, and more than what underflows in the boxes' distances.
+inline float cell_reach(const Gathered& g, const CellFrame& t) {
+  const double far = min(g.highest + t.radius + t.slack, kFarthest);
+  return float_above(far * far);
+}
+
+/// <= the distance between T's exact centre and what is in boxes at this distance, squared, as
+/// Walk has it: of the 2^-148 that underflow may have added, the root is 2^-74. A root and two
+/// differences are rounded, 1.5 kUlp of the root.
+inline double box_distance_down(const CellFrame& t, double distance2) {
+  return max(round_down(root(distance2), 2.0) - 0x1p-74 - t.slack, 0.0);
+}
+
+}  // namespace vkh::native

@@ -1,0 +1,173 @@
+#include "host/native/cells.h"
+
+#include "host/base/rounding.h"
+#include "host/mesh/round_to_float.h"
+#include "host/native/cell.h"
+#include "host/native/problem.h"
+#include "vkhausdorff/length.h"
+
+namespace vkh::native {
+namespace {
+
+/// A cell, and B around its centre.
+struct CellView {
+  const FaceTree& tree;
+  CellFrame cell;
+  View view;
+
+  Surface surface(uint32_t place) const {
+    const Corners& t = tree.triangle(place);
+    return make_surface(two(t.a), two(t.b), two(t.c), view);
+  }
+};
+
+uint32_t nearest_place(const CellView& v, uint32_t start) {
+  Nearest from;
+  const auto last = static_cast<uint32_t>(v.tree.count() - 1);
+  if (start != kNone) v.tree.try_triangle(v.cell.origin.hi, std::min(start, last), from);
+  return v.tree.nearest(v.cell.origin.hi, from).place;
+}
+
+/// Goes over the triangles that may be closest somewhere on a cell, and notes those that are beyond
+/// none.
+class Gathering {
+ public:
+  Gathering(const CellView& v, uint32_t nearest)
+      : v_(v), g_(begin_gathering(v.cell, v.surface(nearest), nearest)) {
+    near_.count = 0;
+    of_corners_.fill(g_.corners);
+  }
+
+  // All of them, or some, where boxes stand for the rest.
+  void look_around() {
+    Walk walk(v_.tree, v_.cell.origin.hi);
+    float reach = cell_reach(g_, v_.cell);
+    for (uint32_t looked_at = 0; looked_at < gpu::kCellTriangles;) {
+      const Leaf leaf = walk.next(reach);
+      if (leaf.is_none()) return;
+      for (uint32_t i = leaf.begin; i < leaf.end; ++i) look_at(i);
+      looked_at += leaf.end - leaf.begin;
+      reach = std::min(reach, cell_reach(g_, v_.cell));
+    }
+    const auto least = static_cast<double>(walk.least_left(reach));
+    g_ = without(g_, v_.cell, box_distance_down(v_.cell, least));
+    near_ = {};
+  }
+
+  // As gathered() of the text, which says neither whether it leaves S out nor S's distances, and
+  // which measures the first triangle once more.
+  void look_at(uint32_t triangle) {
+    const Surface s = v_.surface(triangle);
+    const Minorant m = minorant_of(g_, v_.cell, s);
+    if (is_beyond(m.at_corners, g_.best)) return;
+    near_.add(triangle);
+    g_ = with_minorant(g_, m);
+    if (triangle == g_.triangle || !may_be_nearer(g_, m)) return;
+    const vec3 d = cell_distances(v_.cell, s);
+    g_ = with_distances(g_, d, triangle);
+    for (size_t k = 0; k < 3; ++k) {
+      if (corner(k) == triangle) of_corners_[k] = d;
+    }
+  }
+
+  // Adds the triangles nearest to the corners, two at a time, if they are not the same.
+  void look_at_pairs() {
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t i = k == 2 ? 1 : 0, j = k == 0 ? 1 : 2;
+      if (corner(i) == corner(j) || (k == 2 && corner(1) == corner(0))) continue;
+      g_ = cut_between(g_, v_.cell, v_.surface(corner(i)), of_corners_[i], v_.surface(corner(j)),
+                       of_corners_[j]);
+    }
+  }
+
+  const Gathered& found() const { return g_; }
+  const Nearby& near() const { return near_; }
+
+ private:
+  // The triangle nearest to a corner.
+  uint32_t corner(size_t k) const {
+    return k == 0 ? g_.of_corners.x : k == 1 ? g_.of_corners.y : g_.of_corners.z;
+  }
+
+  const CellView& v_;
+  Gathered g_;
+  Nearby near_;
+  std::array<vec3, 3> of_corners_;  // the distances of those triangles from all corners
+};
+
+Gathering gather(const CellView& v, uint32_t start) {
+  Gathering gathering(v, nearest_place(v, start));
+  gathering.look_around();
+  return gathering;
+}
+
+// Some triangle of `near` is closest at each point of the cell.
+Gathering gather_near(const CellView& v, const Nearby& near) {
+  Nearest nearest;
+  for (uint32_t k = 0; k < near.count; ++k)
+    v.tree.try_triangle(v.cell.origin.hi, near.place[k], nearest);
+  Gathering gathering(v, nearest.place);
+  for (uint32_t k = 0; k < near.count; ++k) gathering.look_at(near.place[k]);
+  return gathering;
+}
+
+// Rounded outward: an affine function of values that are not larger, at the corners, is nowhere
+// larger.
+gpu::CellBounds bounds_of(const Gathered& g, const CellView& v) {
+  const vec3 lower = lower_of(g, v.cell);
+  return {.lower_a = float_down(lower.x),
+          .lower_b = float_down(lower.y),
+          .lower_c = float_down(lower.z),
+          .upper_a = float_up(g.upper.x),
+          .upper_b = float_up(g.upper.y),
+          .upper_c = float_up(g.upper.z),
+          .highest = float_up(g.highest),
+          .reached = float_down(reached_of(g)),
+          .mean_upper = float_up(min(g.mean, g.highest)),
+          .square_upper = float_up(g.square),
+          .face_a = v.tree.face(g.of_corners.x),
+          .face_b = v.tree.face(g.of_corners.y),
+          .face_c = v.tree.face(g.of_corners.z),
+          .face = v.tree.face(g.triangle),
+          .triangle = g.triangle};
+}
+
+Root root_of(const Problem& problem, uint32_t face) {
+  const UVec3& f = problem.a.faces[face];
+  const std::vector<vec3>& at = problem.placed_a.at;
+  return make_root(two(at[f.x]), two(at[f.y]), two(at[f.z]));
+}
+
+}  // namespace
+
+PlacedPair::PlacedPair(const Mesh& a, const Mesh& b)
+    : problem_(std::make_unique<const Problem>(a, b)) {}
+PlacedPair::~PlacedPair() = default;
+
+const Frame& PlacedPair::frame() const { return problem_->frame; }
+double PlacedPair::displacement() const { return problem_->displacement; }
+double PlacedPair::farthest() const {
+  return farthest_in(problem_->joint, add_up(problem_->a.delta, problem_->b.delta));
+}
+
+gpu::Vertex PlacedPair::vertex_of_a(uint32_t number) const {
+  const vec3& p = problem_->placed_a.at[number];
+  const auto low = [](double x) {
+    return nearest_float(x - static_cast<double>(nearest_float(x)));
+  };
+  return {{nearest_float(p.x), nearest_float(p.y), nearest_float(p.z)},
+          {low(p.x), low(p.y), low(p.z)}};
+}
+
+gpu::CellBounds PlacedPair::bounds(const gpu::Cell& cell, Nearby& near) const {
+  const gpu::uvec4& w = cell.corners;
+  const CellFrame t =
+      make_cell(root_of(*problem_, cell.face), unpack_corners({w.x, w.y, w.z, w.w}));
+  const CellView view{.tree = problem_->tree, .cell = t, .view = cell_view(t)};
+  Gathering gathering = near.is_known() ? gather_near(view, near) : gather(view, cell.start);
+  gathering.look_at_pairs();
+  near = gathering.near();
+  return bounds_of(gathering.found(), view);
+}
+
+}  // namespace vkh::native

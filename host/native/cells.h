@@ -1,0 +1,52 @@
+// Bounds of d(x, B) over cells of A, in doubles, rounded outward to a device's floats.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "shaders/gpu_types.h"
+#include "vkhausdorff/frame.h"
+#include "vkhausdorff/mesh.h"
+
+namespace vkh::native {
+
+struct Problem;
+
+/// Triangles of B, by their places in a pair's own order, of which one is closest at each point of
+/// a cell, and so at each point of a part of it; or any may be.
+struct Nearby {
+  static constexpr uint32_t kMost = 8;
+  std::array<uint32_t, kMost> place{};
+  uint32_t count = kMost + 1;  ///< more than kMost: any may be
+
+  bool is_known() const { return count <= kMost; }
+  void add(uint32_t triangle) {
+    if (count < kMost) place[count] = triangle;
+    count = std::min(count + 1, kMost + 1);
+  }
+};
+
+/// A pair in its frame, of whose A cells can be bounded. Threads may share it.
+class PlacedPair {
+ public:
+  /// Both outlive it, and are meshes (check_mesh).
+  PlacedPair(const Mesh& a, const Mesh& b);
+  ~PlacedPair();
+
+  const Frame& frame() const;
+  double displacement() const;  ///< both meshes' together, in the frame
+  double farthest() const;      ///< no distance is larger, in the files' unit
+
+  /// A vertex of A in the frame, and its rest, as floats. It steers.
+  gpu::Vertex vertex_of_a(uint32_t number) const;
+  /// Bounds a cell, in the frame. `triangle` and `start` are places in this pair's own order of B.
+  /// `near`: what is known of the cell, and then what was found.
+  gpu::CellBounds bounds(const gpu::Cell& cell, Nearby& near) const;
+
+ private:
+  std::unique_ptr<const Problem> problem_;
+};
+
+}  // namespace vkh::native
