@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "host/solve/held_pairs.h"
+#include "host/survey/area_table.h"
+#include "host/survey/wave_survey.h"
 #include "tests/shapes/hard_pairs.h"
 #include "tests/support/cell_check.h"
 #include "tests/support/solver_bench.h"
@@ -62,6 +64,39 @@ TEST_CASE("nor with low parts, far out, or tiny") {
   check_right(tally_of(translated(a, {1e3, 0.1, 0}), translated(b, {1e3, 0, 0}), 400), 400);
   check_right(tally_of(scaled(a, -100), scaled(b, -100), 400), 400);
   check_right(tally_of(scaled(a, 100), scaled(b, 100), 400), 400);
+}
+
+/// Splits the cells whose mean is known worst, and bounds their parts.
+void split_some(SurveyCells& cells, double whole) {
+  gpu::SurveyPlan plan{};
+  plan.mean = 1;
+  plan.of_whole = static_cast<float>(1 / whole);
+  plan.most = {3e38f, 3e38f};
+  const CellRange all{0, static_cast<uint32_t>(cells.count())};
+  const SurveyChoice choice = choose_cells(cells.score(plan, all), 0.9, 300);
+  if (choice.count() == 0) return;
+  REQUIRE(cells.split(choice));
+  cells.bound(0, choice.parts * choice.count(), true);
+}
+
+TEST_CASE("nor of a survey's cells, which are parts of cells that were bounded") {
+  for (size_t i = 0; i < family_names().size(); ++i) {
+    CAPTURE(family_names()[i]);
+    const HardPair hard = hard_pair(i, 300 + i);
+    survey(hard.pair.a, hard.pair.b, [&](const SurveyedPair& pair) {
+      const AreaWeights weights = weights_of(areas_of(hard.pair.a));
+      const double farthest = pair.frame.to_frame(pair.farthest) + pair.displacement;
+      pair.cells->begin(weights.of_face, static_cast<float>(1.001 * farthest));
+      pair.cells->bound(0, pair.cells->count(), true);
+      for (int round = 0; round < 5; ++round) split_some(*pair.cells, weights.whole);
+      std::vector<gpu::Cell> cells;
+      std::vector<gpu::CellBounds> bounds;
+      pair.cells->read(cells, bounds);
+      CellTally tally;
+      CellCheck(pair, hard.pair.b).check(cells, bounds, 7, tally);
+      check_right(tally, cells.size());
+    });
+  }
 }
 
 TEST_CASE("a triangle over a plane: affine, to rounding") {

@@ -317,8 +317,9 @@ TEST_CASE("a device's survey is the same with other threads and other batches") 
     options.cosine_tolerance = options.agreeing_tolerance = 1e-9;
     const Threads one(1);
     const SurveyResult first = surveyed(a, b, options);
-    CHECK(first.ended == SurveyEnd::kEffort);
-    CHECK(first.cells > kBlock);
+    const bool is_exact = is_native() && first.is_met();  // planes over planes, in doubles
+    CHECK((is_exact || first.ended == SurveyEnd::kEffort));
+    CHECK((is_exact || first.cells > kBlock));
     for (const size_t threads : std::initializer_list<size_t>{2, 7}) {
       const Threads limit(threads);
       options.submission_ms = threads == 2 ? 1 : 1000;
