@@ -71,7 +71,7 @@ class Options(unittest.TestCase):
             with self.subTest(command):
                 found = completed(command, "--device", "")
                 several = {"all"} if command in ("distance", "batch") else set()
-                native = set() if command in ("metrics", "simplify") else {"native"}
+                native = set() if command == "simplify" else {"native"}
                 self.assertEqual(found, {"gpu", "cpu"} | several | native)
 
     def test_rules_name_options_of_the_table(self):
