@@ -70,6 +70,13 @@ inline UInt128 multiply(uint64_t x, uint64_t y) {
 #endif
 }
 
+/// Tells the processor that the memory at this address will be read soon.
+inline void prefetch_to_read([[maybe_unused]] const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address, 0);
+#endif
+}
+
 /// Tells the processor that the memory at this address will be written soon.
 inline void prefetch_to_write([[maybe_unused]] const void* address) {
 #if defined(__GNUC__)

@@ -88,28 +88,31 @@ class CellWriter {
     const MapCell& cell = picture_.map->cells[i];
     if (picture_.mesh.are_points) {
       const glm::dvec3 at = camera_.pixel(picture_.mesh.vertices[cell.face]);
-      return put_disc(camera_, at, look_at(cell, 0, light_at(camera_, at.z)), corners);
+      Corner look = look_of(cell, light_at(camera_, at.z));
+      look.share = share_at(cell, 0);
+      return put_disc(camera_, at, look, corners);
     }
     const std::array<glm::dvec3, 3> at = pixels_of(cell);
-    const double light = light_on(normal_seen(at, camera_.scale));
+    const Corner look = look_of(cell, light_on(normal_seen(at, camera_.scale)));
     for (size_t k = 0; k < at.size(); ++k) {
-      corners[k] = look_at(cell, k, light).placed_at(camera_.placed(at[k]));
+      corners[k] = look.placed_at(camera_.placed(at[k]));
+      if (look.by_share != 0) corners[k].share = share_at(cell, k);
     }
   }
 
  private:
-  // A corner of a cell without its place.
-  Corner look_at(const MapCell& cell, size_t corner, double light) const {
-    const auto lit = [light](uint8_t c) { return static_cast<uint8_t>(std::lround(c * light)); };
+  // A corner of a cell without its place and its share.
+  Corner look_of(const MapCell& cell, double light) const {
+    const auto lit = [light](uint8_t c) { return static_cast<uint8_t>(c * light + 0.5); };
     const auto hatched = static_cast<uint8_t>(scale_.is_unresolved(cell) ? 1 : 0);
     if (const std::optional<Rgb> plain = scale_.plain_colour(cell))
       return {.colour = {lit(plain->red), lit(plain->green), lit(plain->blue), 0},
               .hatched = hatched};
+    return {.colour = {lit(255), 0, 0, 0}, .hatched = hatched, .by_share = 1};
+  }
+  float share_at(const MapCell& cell, size_t corner) const {
     const double share = scale_.share_of(scale_.distance_at(cell, corner));
-    return {.share = static_cast<float>(std::clamp(share, -8.0, 8.0)),
-            .colour = {lit(255), 0, 0, 0},
-            .hatched = hatched,
-            .by_share = 1};
+    return static_cast<float>(std::clamp(share, -8.0, 8.0));
   }
   std::array<glm::dvec3, 3> pixels_of(const MapCell& cell) const {
     const glm::uvec3 f = picture_.mesh.faces[cell.face];
