@@ -6,8 +6,10 @@
 #include <glm/common.hpp>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "host/base/parallel.h"
 #include "host/show/camera.h"
 #include "host/show/page_words.h"
 #include "host/show/shown_cells.h"
@@ -103,6 +105,18 @@ class MapGrid {
 
   void add(const MapPlace& place) {
     put(box_of(place.point), place.distance, [&] { return place; });
+  }
+
+  /// Adds the boxes of another grid over the same mesh, as if its cells had been added behind
+  /// these.
+  void add(const MapGrid& other) {
+    for (const MapPlace& place : other.places_) add(place);
+    const auto number = [&](size_t of_other) {
+      return number_[key_of(box_of(other.places_[of_other].point))];
+    };
+    for (size_t box = 0; box < other.linked_.size(); ++box) {
+      for (const size_t to : other.linked_[box]) linked_[number(box)].push_back(number(to));
+    }
   }
 
   const std::vector<MapPlace>& places() const { return places_; }
@@ -225,6 +239,22 @@ float least_of_places(const CellMap& map, float largest) {
   return static_cast<float>(kLeastOfLargest * (end > 0 ? end : static_cast<double>(largest)));
 }
 
+// The boxes of all cells that have a place that is at least so far. Lots of cells are added as if
+// one thread had added all.
+MapGrid grid_of(const Mesh& mesh, const CellMap& map, float least) {
+  constexpr size_t kLeastLot = size_t{1} << 17;  // cells: a grid takes 1.3 MB
+  const size_t count = map.cells.size(), size = std::max(kLeastLot, count / thread_count() + 1);
+  std::vector<MapGrid> lots((count + size - 1) / size, MapGrid(mesh));
+  for_each_range_of(size, count, [&](size_t lot, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      if (!map.is_left_out(map.cells[i])) lots[lot].add(mesh, map, map.cells[i], least);
+    }
+  });
+  MapGrid grid = std::move(lots.front());
+  for (size_t lot = 1; lot < lots.size(); ++lot) grid.add(lots[lot]);
+  return grid;
+}
+
 }  // namespace
 
 std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t most,
@@ -234,11 +264,8 @@ std::vector<MapPlace> map_places(const Mesh& mesh, const CellMap& map, size_t mo
     if (!map.is_left_out(cell)) largest = std::max(largest, largest_of(cell));
   }
   if (static_cast<double>(largest) <= map.least) return {};
-  MapGrid grid(mesh);
   const float least = least_of_places(map, largest);
-  for (const MapCell& cell : map.cells) {
-    if (!map.is_left_out(cell)) grid.add(mesh, map, cell, least);
-  }
+  MapGrid grid = grid_of(mesh, map, least);
   const double farthest = map.max_distance.value_or(std::numeric_limits<double>::infinity());
   if (witness && witness->distance.lower <= farthest &&
       witness->distance.lower > static_cast<double>(least) * map.unit)
