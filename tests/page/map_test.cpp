@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/base/parallel.h"
 #include "host/show/camera.h"
 #include "host/show/draw.h"
 #include "host/show/map_legend.h"
@@ -226,6 +227,33 @@ TEST_CASE("a ridge is one place") {
     return std::abs(p.x - 20) < 1.5 ? 0.8 + 0.2 * std::sin(p.y) * std::sin(p.y) : 0.01;
   });
   CHECK(map_places(mesh, map, 5).size() == 1);
+}
+
+TEST_CASE("places do not depend on the number of threads") {
+  constexpr uint32_t kRow = 400;
+  Mesh mesh = sheet(kRow);
+  const auto vertex = [](uint32_t x, uint32_t y) { return x * (kRow + 1) + y; };
+  // It joins the first place to the second one.
+  mesh.faces.emplace_back(vertex(50, 50), vertex(350, 350), vertex(350, 351));
+  const CellMap map = map_of_faces(mesh, [](const glm::dvec3& p) {
+    const glm::dvec3 at = p / 8.0;  // steps make many as far
+    const double far =
+        bump(at, 6.25, 6.25, 1) + bump(at, 43.75, 43.75, 0.95) + bump(at, 44, 8, 0.8);
+    return std::floor(far * 16) / 16;
+  });
+  REQUIRE(map.cells.size() > 2 * (size_t{1} << 17));
+  limit_threads(1);
+  const std::vector<MapPlace> one = map_places(mesh, map, 5);
+  limit_threads(5);
+  const std::vector<MapPlace> five = map_places(mesh, map, 5);
+  limit_threads(0);
+  REQUIRE(one.size() == 2);
+  REQUIRE(five.size() == 2);
+  for (size_t i = 0; i < one.size(); ++i) {
+    CHECK(one[i].face == five[i].face);
+    CHECK(one[i].point == five[i].point);
+    CHECK(one[i].distance == five[i].distance);
+  }
 }
 
 TEST_CASE("the farthest point that was found is the place of its cluster") {
