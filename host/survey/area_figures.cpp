@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 
 #include "host/survey/kept.h"
@@ -75,17 +76,20 @@ void put_in_order(std::span<const double> shares, std::span<Enclosure> at) {
   }
 }
 
+// Percentiles that have no goal are as wide as what was asked for others leaves them.
 std::vector<Percentile> percentiles_of(AreaDistances& distances, const FiguresAsked& asked,
                                        const SurveyedPair& pair) {
   const std::vector<double>& shares = asked.options.percentiles;
-  std::vector<Enclosure> at =
-      distances.percentiles({shares, asked.resolution(distances.reached())});
+  const bool has_goal = asked.options.narrows_percentiles;
+  const double resolution =
+      has_goal ? asked.resolution(distances.reached()) : std::numeric_limits<double>::infinity();
+  std::vector<Enclosure> at = distances.percentiles({shares, resolution});
   put_in_order(shares, at);
   std::vector<Percentile> found;
   std::vector<Threshold> beside;
   for (size_t i = 0; i < at.size(); ++i) {
     found.push_back({shares[i], in_files(pair, at[i]), false});
-    if (!asked.is_open(at[i])) continue;
+    if (!has_goal || !asked.is_open(at[i])) continue;
     const double near = at[i].lower + asked.beside(at[i]), far = at[i].upper - asked.beside(at[i]);
     beside.insert(beside.end(), {{near, near}, {far, far}});
   }
