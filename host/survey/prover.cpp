@@ -14,6 +14,7 @@
 #include "host/mesh/same_faces.h"
 #include "host/solve/cell_corners.h"
 #include "host/solve/held_pairs.h"
+#include "host/solve/native_runs.h"
 #include "host/survey/proof_tree.h"
 
 namespace vkh {
@@ -334,6 +335,7 @@ class Prover {
 }  // namespace
 
 Proof prove(Solver& solver, const ProofJob& job) {
+  if (solver.description().type == kNative) refuse_natively("a certificate");
   refuse_any_triangulation(job.a, job.b, "certificate");
   Proof proof;
   SolveOptions options = job.options;
