@@ -1,5 +1,5 @@
-// Cells that the host holds are refined for a goal at a time: faces, sides, normals, points. For a
-// surface's figures and its map they are refined where they are: wave_survey.h.
+// Cells that the host holds are refined for a goal at a time: sides, normals, points. For a
+// surface's figures, its map and its faces they are refined where they are: wave_survey.h.
 #pragma once
 
 #include <optional>
