@@ -103,7 +103,9 @@ class CellWriter {
  private:
   // A corner of a cell without its place and its share.
   Corner look_of(const MapCell& cell, double light) const {
-    const auto lit = [light](uint8_t c) { return static_cast<uint8_t>(c * light + 0.5); };
+    const auto lit = [light](uint8_t c) {
+      return static_cast<uint8_t>(std::floor(c * light + 0.5));
+    };
     const auto hatched = static_cast<uint8_t>(scale_.is_unresolved(cell) ? 1 : 0);
     if (const std::optional<Rgb> plain = scale_.plain_colour(cell))
       return {.colour = {lit(plain->red), lit(plain->green), lit(plain->blue), 0},

@@ -191,7 +191,7 @@ bool is_noise(std::string_view bytes) {
 
 /// Deflates in zlib's format. Behind the first `alike` bytes are differences of distances, in which
 /// little repeats unless a mesh does.
-std::string deflated(std::string bytes, size_t alike) {
+std::string deflated(const std::string& bytes, size_t alike) {
 #ifdef VKH_HAS_ZLIB
   const std::string_view first = std::string_view(bytes).substr(0, alike);
   const std::string_view rest = std::string_view(bytes).substr(alike);
@@ -225,7 +225,7 @@ PackedMesh packed(const ShownMesh& shown) {
   append_streams(bytes, distances_of(shown, unit), 3);
   append_streams(bytes, widths_of(shown, unit), 2);
   append_streams(bytes, flags_of(shown), 1);
-  return {corners.order.size(), shown.faces.size(), unit, deflated(std::move(bytes), alike)};
+  return {corners.order.size(), shown.faces.size(), unit, deflated(bytes, alike)};
 }
 
 }  // namespace vkh

@@ -231,6 +231,7 @@ VKH_FN vec3 placed(Cut cut, float alone, float first, float second) {
 
 // An affine function on T that is at least `at` at the alone corner and the two others, and at
 // least `p` and `q` at the cuts.
+// NOLINTNEXTLINE(readability-function-size)
 VKH_FN vec3 plane_above(Cut cut, vec3 at, float to_p, float p, float to_q, float q) {
   float on_p = round_down((1.0f - to_p) * at.x + to_p * at.y, 4.0f);
   float on_q = round_down((1.0f - to_q) * at.x + to_q * at.z, 4.0f);
@@ -242,6 +243,7 @@ VKH_FN vec3 plane_above(Cut cut, vec3 at, float to_p, float p, float to_q, float
 // Cuts T between S and R where its distances from them, `ds` and `dr` at its corners, even out as
 // from_cut has it: the piece with one corner, o, belongs to the nearer there, the other to the
 // other. Cuts p and q on the edges from o to f and to h: the pieces are o p q, p f h and p h q.
+// NOLINTNEXTLINE(readability-function-size)
 VKH_FN Gathered cut_between(Gathered g, CellFrame t, Surface s, vec3 ds, Surface r, vec3 dr) {
   vec3 side = ds - dr;
   Cut cut = cut_by(side);
