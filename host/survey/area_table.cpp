@@ -44,8 +44,12 @@ std::vector<size_t> order_of(std::span<const Threshold> thresholds, const End& e
 // An area is rounded down to an integer, and so loses less than one.
 AreaWeights weights_of(const Areas& areas) {
   constexpr int kBits = 60;
-  const int scale = kBits - std::ilogb(areas.whole);
   AreaWeights weights;
+  if (!areas.is_positive()) {
+    weights.of_face.assign(areas.of_face.size(), 0);
+    return weights;
+  }
+  const int scale = kBits - std::ilogb(areas.whole);
   weights.of_face.reserve(areas.of_face.size());
   uint64_t whole = 0;
   for (const double area : areas.of_face) {

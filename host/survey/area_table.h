@@ -20,7 +20,7 @@ struct AreaWeights {
   /// integers by no more than this.
   double error = 0;
 };
-/// `areas` are positive.
+/// All are 0 where no share of the areas can be told: Areas::is_positive().
 AreaWeights weights_of(const Areas& areas);
 
 /// The plan of a tally at some thresholds: at most gpu::kSurveyEdges. Each end of them ascends by
