@@ -98,8 +98,9 @@ void add_table(const gpu::SurveyTable& table, gpu::SurveyTable& sum) {
   sum.not_lowest = std::max(sum.not_lowest, table.not_lowest);
 }
 
-// Equal surfaces have no distance at all, and a unit must have a square.
-int tally_unit(float farthest) { return std::ilogb(std::max(farthest, 0x1p-60f)) + 1 + 127; }
+// A square that is rounded up has 2^-60 added (round_up in certified.h), and must be below the
+// unit's: so the unit is 2^-29 at least.
+int tally_unit(float farthest) { return std::ilogb(std::max(farthest, 0x1p-30f)) + 1 + 127; }
 
 AreaTable::AreaTable(const gpu::SurveyTable& table, const TallyEdges& at,
                      const AreaWeights& weights, int unit)

@@ -80,7 +80,8 @@ VKH_FN TallyBounds tally_bounds(CellBounds b) {
   t.above = spread_of(vec3(b.upper_a, b.upper_b, b.upper_c));
   t.highest = b.highest;
   t.mean_upper = min(b.mean_upper, b.highest);
-  t.square_upper = min(b.square_upper, round_up(b.highest * t.mean_upper, 1.0f));
+  float square = choose(b.highest > 0.0f, round_up(b.highest * t.mean_upper, 1.0f), 0.0f);
+  t.square_upper = min(b.square_upper, square);
   return t;
 }
 
