@@ -68,6 +68,15 @@ TEST_CASE("edges ascend in both ends, and are no nearer than their thresholds") 
   }
 }
 
+TEST_CASE("a square that is rounded up is below the square of a tally's unit") {
+  for (const float farthest :
+       {0.0f, 0x1p-100f, 0x1p-60f, 0x1p-40f, 0x1p-30f, 0x1p-29f, 1e-6f, 2.0f}) {
+    const double unit = std::ldexp(1.0, tally_unit(farthest) - 127);
+    CHECK(static_cast<double>(farthest) < unit);
+    CHECK(static_cast<double>(lib::round_up(farthest * farthest, 1)) < unit * unit);
+  }
+}
+
 TEST_CASE("weights add up to nearly what can be, and their error covers what is rounded off") {
   Areas areas;
   Random random(2);
