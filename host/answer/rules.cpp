@@ -162,7 +162,7 @@ std::vector<Rule> rules_of_simplify() {
            kSimplify}};
 }
 
-/// What only a Vulkan device does, by the option that asks for it.
+/// Names an option that only a Vulkan device serves, and tells whether it is asked for.
 struct OfDevices {
   const char* option;
   bool (*is_asked)(const Question&);

@@ -29,7 +29,7 @@ struct PointBatch {
   bool has_low = false;               ///< B's vertices have low parts
 };
 
-/// What is known of a cell before it is bounded: no distance is above `farthest`.
+/// Bounds a cell before anything is known but that no distance is above `farthest`.
 inline gpu::CellBounds unknown_bounds(float farthest) {
   return {.lower_a = 0,
           .lower_b = 0,

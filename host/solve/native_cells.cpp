@@ -76,7 +76,7 @@ class Sums {
   }
 
  private:
-  /// What a cell that no edge cuts does not need is not made.
+  /// Makes a cell's bounds for the tally where they are needed first: an edge may cut no cell.
   struct Bounded {
     const gpu::CellBounds& bounds;
     std::optional<lib::TallyBounds> made = {};
@@ -193,7 +193,7 @@ std::span<const uint32_t> NativeCells::score(const gpu::SurveyPlan& plan, const 
   return counts_;
 }
 
-// Those above the bin in their order, and then those in it.
+// Lists the cells above the bin in their order, and then those in it.
 void NativeCells::list_chosen(const SurveyChoice& choice) {
   parents_.clear();
   for (uint32_t i = 0; i < keys_.size(); ++i) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCurveSteps = 100;
 
-// What the figures of a surface are asked of one tally, and where the answers stand.
+// Puts all that the figures of a surface need into one tally, and finds the answers in it.
 class Questions {
  public:
   Questions(const FiguresAsked& asked, bool has_curve) : asked_(asked) {

@@ -9,7 +9,7 @@
 
 #include "host/base/parallel.h"
 #include "host/solve/cell_corners.h"
-#include "shaders/survey/tally.h"
+#include "shaders/survey/score.h"
 
 namespace vkh {
 namespace {
@@ -44,9 +44,7 @@ uint32_t opposite_longest(const Mesh& a, const gpu::Cell& cell) {
   return lb >= lc ? 1 : 2;
 }
 
-float lowest(const gpu::CellBounds& b) {
-  return std::max(std::min({b.lower_a, b.lower_b, b.lower_c}), 0.0f);
-}
+float lowest(const gpu::CellBounds& b) { return lib::lowest_of(b); }
 
 CellStore::CellStore(const Mesh& a, float farthest) : a_(a), reached_(a.faces.size(), 0.0f) {
   gpu::Cell whole{};

@@ -1,6 +1,6 @@
-// What tallies have told of the shares of A's area within distances. A share only grows with the
-// distance, and a survey only narrows it: so what was seen at one distance tells of all others, and
-// holds for ever.
+// Remembers what tallies have told of the shares of A's area within distances. A share only grows
+// with the distance, and a survey only narrows it: so what was seen at one distance tells of all
+// others, and holds for ever.
 #pragma once
 
 #include <map>
@@ -18,9 +18,9 @@ class SharesSeen {
   /// Encloses the share within a threshold.
   Enclosure within(const Threshold& at) const;
 
-  /// What is known of a percentile: it is above `low`, and not above `high`. The cells may have
-  /// proven more: that it is above what is less than `first`, and not above what is more than
-  /// `last`. Without bounds these are `least` and `most`.
+  /// Encloses a percentile: it is above `low`, and not above `high`. As the cells were when they
+  /// were last asked, its lower end was at most `first`, and its upper end at least `last`. These
+  /// two only steer. Without bounds the ends are `least` and `most`.
   struct Ends {
     double low, first, last, high;
   };

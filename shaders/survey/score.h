@@ -34,7 +34,8 @@ VKH_FN float widest(CellBounds b) {
   return min(affine, b.highest - lowest_of(b));
 }
 
-// What a map scores, of steps `step` up to a distance of `most`; 0: there is none.
+// Scores a cell for a map by how far it is wider than `step`, unless all of it is farther than
+// `most`. A step of 0: there is no map.
 VKH_FN float map_score(CellBounds b, float step, float most) {
   float wider = max(widest(b) - step, 0.0f);
   return choose(step == 0.0f || lowest_of(b) > most, 0.0f, wider);
