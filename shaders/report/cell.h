@@ -180,6 +180,12 @@ VKH_FN Gathered with_direction(Gathered g, CellFrame t, Surface s, vec3 directio
   return g;
 }
 
+// S's normal, on the side that `offset` leads to.
+VKH_FN vec3 normal_towards(Surface s, vec3 offset) {
+  vec3 normal = cross3(s.at.b - s.at.a, s.at.c - s.at.a);
+  return choose(dot3(normal, offset) < 0.0f, -normal, normal);
+}
+
 // Adds S, one that is near: its bounds from above decide which others to examine. It gives no bound
 // from below until it is examined as they are. Next to S the closest point's direction is what
 // rounding leaves, and its normal serves.
@@ -187,18 +193,19 @@ VKH_FN Gathered begin_gathering(CellFrame t, Surface s, uint triangle) {
   Gathered g = nothing_gathered();
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   g.triangle = triangle;
-  vec3 normal = cross3(s.at.b - s.at.a, s.at.c - s.at.a);
   g = with_direction(g, t, s, c.offset);
-  g = with_direction(g, t, s, choose(dot3(normal, c.offset) < 0.0f, -normal, normal));
+  g = with_direction(g, t, s, normal_towards(s, c.offset));
   return with_distances(g, cell_distances(t, s), triangle);
 }
 
-// S's minorant: its own direction is from its closest point to the centre.
+// S's minorant: its own directions are from its closest point to the centre, and its normal, which
+// serves all of T where that point is at S's border.
 VKH_FN Minorant minorant_of(Gathered g, CellFrame t, Surface s) {
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   float off = minorant_off(t, s);
   Minorant m = minorant(t, s, shortened(c.offset), off);
-  return better(m, minorant(t, s, g.along, off), g.below);
+  m = better(m, minorant(t, s, g.along, off), g.below);
+  return better(m, minorant(t, s, shortened(normal_towards(s, c.offset)), off), g.below);
 }
 
 // Takes in S's minorant, if S is beyond none.
