@@ -194,8 +194,10 @@ ROWS = [
     row("within_most's square", TALLY, "round_up(cap * cap, 1.0f), 0.0f)", ["0.99f * cap * cap, 0.0f)"], ON_TALLY),
     row("face_score's limit", SCORE, "min((highest - reached) - tolerance, highest - within)", ["(highest - reached) - tolerance"], ON_TALLY),
     row("face_score's verdict", SCORE, "choose(reached > beyond, 0.0f, max(above, 0.0f))", ["max(above, 0.0f)"], ON_TALLY),
-    row("widest's corners", SCORE, "max(b.upper_b - b.lower_b, b.upper_c - b.lower_c)", ["b.upper_b - b.lower_b"], ON_TALLY),
-    row("widest's lowest", SCORE, "return min(affine, b.highest - lowest_of(b));", ["return min(affine, 0.5f * (b.highest - lowest_of(b)));"], ON_TALLY),
+    row("drawn_by's upper", SCORE, "min(max3(upper - at), b.highest - least3(at))", ["min(least3(upper - at), b.highest - least3(at))", "min(max3(upper - at), b.highest - max3(at))"], ON_TALLY),
+    row("drawn_by's lower", SCORE, "min(max3(at - lower), max3(at) - lowest_of(b))", ["min(least3(at - lower), max3(at) - lowest_of(b))", "min(max3(at - lower), least3(at) - lowest_of(b))"], ON_TALLY),
+    row("drawn_by's ways", SCORE, "max(farther, nearer)", ["farther", "nearer", "min(farther, nearer)"], ON_TALLY),
+    row("drawn_of's choice", SCORE, "level.off < affine.off", ["level.off > affine.off"], ON_TALLY),
     row("has_quarters' bits", SCORE, "& 3u) == 0u", ["& 1u) == 0u"], ON_TALLY),
     row("half_points' corner", SCORE, "(split - 1u) % 3u, 3u, half_side", ["split % 3u, 3u, half_side"], ON_TALLY),
 

@@ -1,7 +1,6 @@
 #include "host/survey/map_goal.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,14 +12,6 @@
 
 namespace vkh {
 namespace {
-
-// The middle of the bounds of a cell's middle.
-double middle_of(const gpu::CellBounds& b) {
-  const double upper = (static_cast<double>(b.upper_a) + static_cast<double>(b.upper_b) +
-                        static_cast<double>(b.upper_c)) /
-                       3;
-  return (mean_lower(b) + std::min(upper, static_cast<double>(b.highest))) / 2;
-}
 
 // About the distance that 99 % of A's area is within, rounded up by a percent: a histogram of
 // logarithms, whose areas are integers, so that the sum is the same in any order.
@@ -57,16 +48,14 @@ class Percentile99 {
   std::vector<uint64_t> area_;
 };
 
-// The percentile of what is not farther than `most`, in the frame.
-template <class Distance>
-double percentile_99(const CellStore& store, const Areas& areas, double most,
-                     const Distance& distance) {
-  std::vector<Percentile99> blocks(block_count(store.count()));
-  for_each_block(store.count(), [&](size_t block, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      const double at = distance(i);
-      if (at <= most)
-        blocks[block].add(at, store.share(i) * areas.of_face[store.face(i)] / areas.whole);
+// Of what is drawn at the cells' middles, without what is farther than `most`, in the frame.
+double percentile_99(std::span<const MapCell> cells, double most) {
+  std::vector<Percentile99> blocks(block_count(cells.size()));
+  for_each_block(cells.size(), [&](size_t block, size_t begin, size_t end) {
+    for (const MapCell& cell : cells.subspan(begin, end - begin)) {
+      const auto [a, b, c] = cell.estimate;
+      const double at = static_cast<double>(a + b + c) / 3;
+      if (at <= most) blocks[block].add(at, static_cast<double>(cell.share));
     }
   });
   Percentile99 all;
@@ -110,43 +99,45 @@ MapGoals::MapGoals(const SurveyOptions& options, const SurveyedPair& pair, const
       open_(pair.frame.to_frame(open_of(pair))),
       least_(least_area(pair, areas, *options.map) / areas.whole),
       floor_(least_width(pair)),
-      unsettled_(options.map->bar ? 0 : kSettles),
-      bar_(options.map->bar ? pair.frame.to_frame(*options.map->bar) : farthest),
-      from_(std::ldexp(farthest, -kOctaves)),
+      is_sought_(!options.map->bar && farthest > 0),
+      bar_(options.map->bar ? pair.frame.to_frame(*options.map->bar) : 0),
+      farthest_(farthest),
+      from_(least_bar()),
       to_(farthest) {}
 
 // Distances in a geometric row, and then the one beyond which the map leaves cells out.
 std::vector<Threshold> MapGoals::thresholds() const {
   std::vector<Threshold> at;
-  if (!is_sought()) return at;
+  if (!is_sought_) return at;
   for (int k = 0; k <= kCuts; ++k) {
     const double d = from_ * std::pow(to_ / from_, static_cast<double>(k) / kCuts);
     at.push_back({d, d});
   }
-  at.push_back({std::min(most_, to_), std::min(most_, to_)});
+  at.push_back({std::min(most_, farthest_), std::min(most_, farthest_)});
   return at;
 }
 
-// The bar ends about where 99 % of the area is within, between two of the distances. It only
-// steers.
+// The bar ends behind the last distance within which less than 99 % of the area is, all that may be
+// there taken together: cells that are still wide would make it too long, and others be left too
+// wide. It only steers. Looks again where it is outside of the distances, or these are far apart.
 bool MapGoals::look(const Tallied& tallied) {
-  constexpr double kSettled = 0.05;
-  if (!is_sought()) return false;
+  if (!is_sought_) return false;
   const std::vector<Threshold> at = thresholds();
-  const auto middle = [&](size_t k) {
-    return (tallied.shares[k].lower + tallied.shares[k].upper) / 2;
-  };
-  const double wanted = 0.99 * middle(at.size() - 1);
-  size_t next = 1;
-  while (next < kCuts && middle(next) < wanted) ++next;
-  const double before = middle(next - 1), behind = std::max(middle(next), before + 1e-9);
-  const double along = std::clamp((wanted - before) / (behind - before), 0.0, 1.0);
-  const double last = bar_;
-  bar_ = at[next - 1].down + along * (at[next].down - at[next - 1].down);
+  const double wanted = 0.99 * tallied.shares.back().upper;
+  const auto is_within = [&](size_t k) { return tallied.shares[k].upper >= wanted; };
+  size_t next = 0;
+  while (next < kCuts && !is_within(next)) ++next;
+  const bool is_below = next == 0 && from_ > least_bar();
+  const bool is_above = !is_within(next) && to_ < farthest_;
+  if (is_below || is_above) {
+    from_ = is_below ? least_bar() : from_;
+    to_ = is_above ? farthest_ : to_;
+    return true;
+  }
+  bar_ = at[next > 0 ? next - 1 : 0].down;
   const bool is_coarse = to_ > 8 * from_;
-  unsettled_ = std::abs(bar_ - last) > kSettled * last ? kSettles : unsettled_ - 1;
-  from_ = at[next - 1].down / kNarrow;
-  to_ = at[next].down * kNarrow;
+  from_ = bar_ / kNarrow;
+  to_ = std::min(at[next].down * kNarrow, farthest_);
   return is_coarse;
 }
 
@@ -160,19 +151,6 @@ gpu::SurveyPlan MapGoals::plan(double whole) const {
   return plan;
 }
 
-namespace {
-
-// The middle of what is known of the distance at each corner, which lies between both affine
-// functions and between both numbers.
-std::array<float, 3> middles_of(const gpu::CellBounds& b) {
-  const auto middle = [&](float lower, float upper) {
-    return (std::max(lower, lowest(b)) + std::min(upper, b.highest)) / 2;
-  };
-  return {middle(b.lower_a, b.upper_a), middle(b.lower_b, b.upper_b), middle(b.lower_c, b.upper_c)};
-}
-
-}  // namespace
-
 CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair,
                const SurveyOptions& options) {
   const CellStore& store = surface.store;
@@ -185,23 +163,21 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair,
   const double open = pair.frame.to_frame(open_of(pair));
   map.slack = pair.frame.length_up(std::max(pair.displacement - open, 0.0));
   if (options.max_distance) map.max_distance = typed_length(*options.max_distance);
-  const auto middle = [&](size_t i) { return middle_of(store.bounds(i)); };
-  map.bar = options.map->bar
-                ? *options.map->bar
-                : map.unit * percentile_99(store, areas, most_of(options, pair), middle);
   map.cells.resize(store.count());
   for_each_block(store.count(), [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
       const gpu::uvec4& c = store.cell(i).corners;
       const double area = store.share(i) * areas.of_face[store.face(i)];
-      map.cells[i] = {
-          .corners = {c.x, c.y, c.z, c.w},
-          .face = store.face(i),
-          .estimate = middles_of(store.bounds(i)),
-          .width = static_cast<float>(static_cast<double>(lib::widest(store.bounds(i))) + open),
-          .share = static_cast<float>(area / areas.whole)};
+      const lib::DrawnCell drawn = lib::drawn_of(store.bounds(i));
+      map.cells[i] = {.corners = {c.x, c.y, c.z, c.w},
+                      .face = store.face(i),
+                      .estimate = {drawn.at.x, drawn.at.y, drawn.at.z},
+                      .width = static_cast<float>(static_cast<double>(drawn.off) + open),
+                      .share = static_cast<float>(area / areas.whole)};
     }
   });
+  map.bar = options.map->bar ? *options.map->bar
+                             : map.unit * percentile_99(map.cells, most_of(options, pair));
   return map;
 }
 

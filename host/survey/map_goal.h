@@ -33,14 +33,15 @@ class MapGoals : public WaveGoals {
   void begin_fine() { is_nearly_met_ = true; }
 
  private:
-  bool is_sought() const { return unsettled_ > 0 && !is_nearly_met_; }
-  static constexpr int kOctaves = 20, kCuts = 12, kSettles = 2;
+  double least_bar() const { return std::ldexp(farthest_, -kOctaves); }
+  static constexpr int kOctaves = 20, kCuts = 12;
   static constexpr double kNarrow = 1.5;  // so far may the bar's end move between two looks
   const double most_, open_, least_, floor_;
-  bool is_nearly_met_ = false;
-  int unsettled_;     // so often the bar's end must stay where it is before it is sought no more
-  double bar_;        // its end, in the frame
+  const bool is_sought_;  // the bar's end
+  double bar_;            // the bar's end, in the frame
+  const double farthest_;
   double from_, to_;  // where it is sought
+  bool is_nearly_met_ = false;
 };
 
 /// The map of all cells, which `options` ask for. A has an area, or is points.

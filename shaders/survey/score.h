@@ -27,18 +27,39 @@ VKH_FN float lowest_of(CellBounds b) {
   return max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);
 }
 
-// The most by which the distance of a point of the cell, and what is drawn there, are apart. Both
-// lie between two affine functions, which are farthest apart at a corner, and between two numbers.
-VKH_FN float widest(CellBounds b) {
-  float affine = max(b.upper_a - b.lower_a, max(b.upper_b - b.lower_b, b.upper_c - b.lower_c));
-  return min(affine, b.highest - lowest_of(b));
+// What a map draws of a cell: an affine function, by its values at the corners.
+struct DrawnCell {
+  vec3 at;
+  float off;  // >= how far the distance of a point of the cell is from what is drawn there
+};
+
+// The distance is above `lower` and under `upper`, two affine functions, which are farthest from
+// what is drawn at a corner; and between two numbers.
+VKH_FN DrawnCell drawn_by(CellBounds b, vec3 at) {
+  vec3 lower = vec3(b.lower_a, b.lower_b, b.lower_c);
+  vec3 upper = vec3(b.upper_a, b.upper_b, b.upper_c);
+  float farther = min(max3(upper - at), b.highest - least3(at));
+  float nearer = min(max3(at - lower), max3(at) - lowest_of(b));
+  return DrawnCell(at, max(farther, nearer));
 }
 
-// Scores a cell for a map by how far it is wider than `step`, unless all of it is farther than
+// Draws the middle of the affine functions, or of the numbers, whichever is less off.
+VKH_FN DrawnCell drawn_of(CellBounds b) {
+  float lowest = lowest_of(b);
+  float middle = 0.5f * (lowest + b.highest);
+  vec3 middles = 0.5f * vec3(b.lower_a + b.upper_a, b.lower_b + b.upper_b, b.lower_c + b.upper_c);
+  vec3 most = vec3(b.highest, b.highest, b.highest);
+  DrawnCell affine = drawn_by(b, min(max(middles, vec3(lowest, lowest, lowest)), most));
+  DrawnCell level = drawn_by(b, vec3(middle, middle, middle));
+  if (level.off < affine.off) return level;
+  return affine;
+}
+
+// Scores a cell for a map by how much more than `step` it is off, unless all of it is farther than
 // `most`. A step of 0: there is no map.
 VKH_FN float map_score(CellBounds b, float step, float most) {
-  float wider = max(widest(b) - step, 0.0f);
-  return choose(step == 0.0f || lowest_of(b) > most, 0.0f, wider);
+  float more = max(drawn_of(b).off - step, 0.0f);
+  return choose(step == 0.0f || lowest_of(b) > most, 0.0f, more);
 }
 
 // The cell's share of A's area, of which its face has a weight.

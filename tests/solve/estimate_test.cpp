@@ -262,7 +262,7 @@ TEST_CASE("the colours of a cell with more faces about it than a device examines
   REQUIRE(r.map->cells.size() == a.faces.size());
   const ClosestTree tree(b.vertices, b.faces);
   for (const MapCell& cell : r.map->cells) {
-    CHECK(static_cast<double>(cell.width) * r.map->unit > 0.05);  // little is proven of it
+    CHECK(static_cast<double>(cell.width) * r.map->unit > 0.02);  // little is proven of it
     const std::array<glm::dvec3, 3> weights = weights_of(cell);
     const glm::uvec3 f = a.faces[cell.face];
     for (size_t i = 0; i < weights.size(); ++i) {

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "shaders/survey/score.h"
@@ -260,25 +261,44 @@ TEST_CASE("score.h: halves are the two halves of the quarters, and quarters need
   CHECK_FALSE(lib::has_quarters(at));
 }
 
-TEST_CASE("score.h: what is drawn of a cell and a distance are no farther apart than it is wide") {
+gpu::CellBounds any_bounds(Random& random) {
+  const auto any = [&] { return static_cast<float>(random.range(-1, 3)); };
+  gpu::CellBounds b{};
+  b.lower_a = any(), b.lower_b = any(), b.lower_c = any();
+  b.upper_a = std::max(b.lower_a, any()), b.upper_b = std::max(b.lower_b, any());
+  b.upper_c = std::max(b.lower_c, any());
+  b.highest = lib::lowest_of(b) + static_cast<float>(random.range(0, 3));
+  return b;
+}
+
+// The ends of what the distance may be at a point with these barycentrics.
+std::pair<double, double> ends_at(const gpu::CellBounds& b, const glm::dvec3& at) {
+  const auto affine = [&](float x, float y, float z) { return dot(at, glm::dvec3(x, y, z)); };
+  return {std::max(affine(b.lower_a, b.lower_b, b.lower_c), static_cast<double>(lib::lowest_of(b))),
+          std::min(affine(b.upper_a, b.upper_b, b.upper_c), static_cast<double>(b.highest))};
+}
+
+TEST_CASE("score.h: no distance is farther from what is drawn than that is off") {
   Random random(5);
   for (int i = 0; i < 20000; ++i) {
-    const auto any = [&] { return static_cast<float>(random.range(-1, 3)); };
-    gpu::CellBounds b{};
-    b.lower_a = any(), b.lower_b = any(), b.lower_c = any();
-    b.upper_a = std::max(b.lower_a, any()), b.upper_b = std::max(b.lower_b, any());
-    b.upper_c = std::max(b.lower_c, any());
-    const float lowest = std::max(std::min({b.lower_a, b.lower_b, b.lower_c}), 0.0f);
-    b.highest = lowest + static_cast<float>(random.range(0, 3));
-    // At a corner both lie between the same two numbers, if there are any.
-    const auto wide = static_cast<double>(lib::widest(b)) * (1 + 0x1p-23);
-    for (const auto& [lower, upper] :
-         {std::pair{b.lower_a, b.upper_a}, std::pair{b.lower_b, b.upper_b},
-          std::pair{b.lower_c, b.upper_c}}) {
-      const float from = std::max(lower, lowest), to = std::min(upper, b.highest);
-      if (from <= to) CHECK(wide >= static_cast<double>(to) - static_cast<double>(from));
+    const gpu::CellBounds b = any_bounds(random);
+    const lib::DrawnCell drawn = lib::drawn_of(b);
+    const double off = static_cast<double>(drawn.off) * (1 + 0x1p-23);
+    for (int k = 0; k < 12; ++k) {
+      glm::dvec3 at(0);
+      at[k % 3] = 1;
+      if (k >= 3) {
+        const double s = random.unit(), t = random.unit() * (1 - s);
+        at = {1 - s - t, s, t};
+      }
+      const auto [from, to] = ends_at(b, at);
+      const double there = dot(at, glm::dvec3(drawn.at));
+      if (from > to) continue;
+      CHECK(off >= to - there - 1e-12);
+      CHECK(off >= there - from - 1e-12);
     }
-    CHECK(wide <= (static_cast<double>(b.highest) - static_cast<double>(lowest)) * (1 + 0x1p-21));
+    const double apart = static_cast<double>(b.highest) - static_cast<double>(lib::lowest_of(b));
+    CHECK(off <= apart / 2 + 0x1p-20);
   }
 }
 
