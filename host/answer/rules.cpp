@@ -169,7 +169,6 @@ struct OfDevices {
 };
 constexpr OfDevices kOfDevices[] = {
     {"align", [](const Question& q) { return q.align; }},
-    {"certificate", [](const Question& q) { return q.certificate; }},
     {"verify", [](const Question& q) { return q.verify; }},
     {"face-max", [](const Question& q) { return !q.face_max_a.empty() || q.face_limits_a; }},
     {"face-max-b", [](const Question& q) { return !q.face_max_b.empty(); }},

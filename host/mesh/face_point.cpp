@@ -23,22 +23,13 @@ glm::dvec3 scaled(const glm::dvec3& v, int exponent) {
   return {std::scalbn(v.x, exponent), std::scalbn(v.y, exponent), std::scalbn(v.z, exponent)};
 }
 
-// A point of a triangle: base + v (end - base) + w (third - base), by corners' numbers. 0 <= v, w
-// and v + w <= 1 hold exactly, so that the exact point lies in the triangle whatever rounding did
-// to v and w.
-struct Weights {
-  size_t base = 0, end = 1, third = 2;
-  double v = 0, w = 0;
-  double distance2 = kInfinity;  // steers
-};
-
 // Squares under this are of edges that are points beside the largest distance, which is about 1.
 constexpr double kLeastSquare = 1e-290;
 
 double ratio(double a, double b) { return b > kLeastSquare ? a / b : 0; }
 
 // The origin is the point asked.
-Weights on_edge(const FaceCorners& t, size_t base, size_t end) {
+FaceWeights on_edge(const FaceCorners& t, size_t base, size_t end) {
   const glm::dvec3 edge = t[end] - t[base];
   const double v = std::clamp(ratio(-glm::dot(t[base], edge), glm::dot(edge, edge)), 0.0, 1.0);
   const glm::dvec3 at = t[base] + v * edge;
@@ -48,7 +39,7 @@ Weights on_edge(const FaceCorners& t, size_t base, size_t end) {
 // The altitude h from ab to c is by Gram-Schmidt, as in shaders/math/triangle.h: normal equations
 // would lose a factor (longest edge / altitude)^2 on needles. The distance is infinite if the
 // origin does not lie above the inside; 4 ulp under 1, so that the exact v + w is at most 1.
-Weights inside(const FaceCorners& t) {
+FaceWeights inside(const FaceCorners& t) {
   const glm::dvec3 ab = t[1] - t[0], ac = t[2] - t[0];
   const double ee = glm::dot(ab, ab);
   const double s = ratio(glm::dot(ac, ab), ee);
@@ -63,17 +54,20 @@ Weights inside(const FaceCorners& t) {
   return {.v = v, .w = w, .distance2 = glm::dot(at, at)};
 }
 
-// Steers: any weights are right.
-Weights closest_weights(const glm::dvec3& p, const FaceCorners& corners) {
+}  // namespace
+
+FaceWeights closest_weights(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corners) {
   FaceCorners t{corners[0] - p, corners[1] - p, corners[2] - p};
   const double size = std::max({largest_of(t[0]), largest_of(t[1]), largest_of(t[2])});
   if (size == 0) return {};
   for (glm::dvec3& corner : t) corner = scaled(corner, -std::ilogb(size));
-  Weights best = inside(t);
-  for (const Weights& edge : {on_edge(t, 0, 1), on_edge(t, 1, 2), on_edge(t, 2, 0)})
+  FaceWeights best = inside(t);
+  for (const FaceWeights& edge : {on_edge(t, 0, 1), on_edge(t, 1, 2), on_edge(t, 2, 0)})
     if (edge.distance2 < best.distance2) best = edge;
   return best;
 }
+
+namespace {
 
 // A point in double, and how far it may be from the exact one, rounded up.
 struct Placed {
@@ -85,7 +79,7 @@ struct Placed {
 // products are by 2 u (and u^2), their sum by one u more of both, and the last sum by u of itself:
 // 3 u of the products and u of the result, of which the latter is computed, too; the 4 takes that
 // and the sum's own rounding. Products that underflow are off by 2^-1074.
-Placed place(const FaceCorners& corners, const Weights& at) {
+Placed place(const FaceCorners& corners, const FaceWeights& at) {
   if (at.w == 0 && (at.v == 0 || at.v == 1)) return {corners[at.v == 0 ? at.base : at.end]};
   const glm::dvec3& base = corners[at.base];
   const glm::dvec3 along = at.v * (corners[at.end] - base);
@@ -163,7 +157,7 @@ FacePoint closest_on_face(const glm::dvec3& p, const std::array<glm::dvec3, 3>& 
   constexpr double kSafe = 0x1p1020;
   if (largest <= kSafe) return found_at(p, place(corners, closest_weights(p, corners)));
   const FaceCorners small{corners[0] / 16.0, corners[1] / 16.0, corners[2] / 16.0};
-  const Weights at = closest_weights(p / 16.0, small);
+  const FaceWeights at = closest_weights(p / 16.0, small);
   Placed placed = place(small, at);
   const bool is_corner = placed.off == 0;
   constexpr double kMost = std::numeric_limits<double>::max() / 16;  // rounding may pass it

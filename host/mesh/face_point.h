@@ -2,9 +2,22 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <glm/vec3.hpp>
+#include <limits>
 
 namespace vkh {
+
+/// A point of a triangle: base + v (end - base) + w (third - base), by corners' numbers. 0 <= v, w
+/// and v + w <= 1 hold exactly, so that the exact point lies in the triangle whatever rounding did
+/// to v and w.
+struct FaceWeights {
+  size_t base = 0, end = 1, third = 2;
+  double v = 0, w = 0;
+  double distance2 = std::numeric_limits<double>::infinity();  ///< steers
+};
+/// Those of a point near the closest one.
+FaceWeights closest_weights(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corners);
 
 /// A point next to a triangle, at distance e from p.
 struct FacePoint {

@@ -8,15 +8,16 @@
 #include <utility>
 
 #include "host/base/rounding.h"
-#include "host/mesh/closest.h"
+#include "host/mesh/face_point.h"
 
 namespace vkh {
 namespace {
 
 constexpr double kUlp = 0x1p-52;
-// The error of distance_up, in kUlp of the largest coordinate seen from p: 2 for the corners, under
-// 12 for the closest point and its place by barycentrics, and 4 of the length itself.
-constexpr double kOff = 32;
+// What low parts lose, of a point's largest coordinate and of the largest seen from it: each
+// component of the point is off by 2^-98 for each of a hundred halvings, so by 2^-91.3, and of an
+// offset by twelve roundings of under 2^-103. The root of three times their square is under 2^-90.
+constexpr double kOff = 0x1p-90;
 
 struct TwoDoubles {
   double hi, lo;
@@ -24,19 +25,36 @@ struct TwoDoubles {
 
 TwoDoubles sum(double a, double b) { return {a + b, sum_error(a, b)}; }
 
-// x + t (y - x): t is a multiple of 2^-16 of at most sixteen bits. fma makes t d exact; what is
-// rounded is t d_lo, and the sums of low parts.
-TwoDoubles between(TwoDoubles x, TwoDoubles y, double t) {
-  const TwoDoubles d = sum(y.hi, -x.hi);
-  const double d_lo = d.lo + (y.lo - x.lo);
+// Low parts alone are rounded, here and in x + t d for t in [0, 1]: they are under 2^-51 of the
+// largest number, so that each rounding is under 2^-104 of it.
+TwoDoubles difference(TwoDoubles x, TwoDoubles y) {
+  const TwoDoubles d = sum(x.hi, -y.hi);
+  return {d.hi, d.lo + (x.lo - y.lo)};
+}
+
+TwoDoubles moved(TwoDoubles x, double t, TwoDoubles d) {
   const double step = t * d.hi;
-  const double step_lo = std::fma(t, d.hi, -step) + t * d_lo;
+  const double step_lo = std::fma(t, d.hi, -step) + t * d.lo;
   const TwoDoubles s = sum(x.hi, step);
   return sum(s.hi, s.lo + (x.lo + step_lo));
 }
 
+// x + t (y - x).
+TwoDoubles between(TwoDoubles x, TwoDoubles y, double t) { return moved(x, t, difference(y, x)); }
+
 double largest(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+// From p to a point of t, each component rounded once, but for what is rounded of low parts.
+glm::dvec3 offset(const Point2& p, const std::array<glm::dvec3, 3>& t, const FaceWeights& at) {
+  const auto component = [&](int i) {
+    const auto corner = [&](size_t of) { return difference({t[of][i], 0}, {p.hi[i], p.lo[i]}); };
+    const TwoDoubles base = corner(at.base);
+    const TwoDoubles along = moved(base, at.v, difference(corner(at.end), base));
+    return moved(along, at.w, difference(corner(at.third), base)).hi;
+  };
+  return {component(0), component(1), component(2)};
 }
 
 bool is_zero(const glm::dvec3& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
@@ -175,9 +193,8 @@ double distance_up(const Point2& p, const std::array<glm::dvec3, 3>& t) {
     if (is_zero(from[i]) && is_zero(p.lo)) return 0;
     reach = std::max(reach, largest(from[i]));
   }
-  const glm::dvec3 foot = closest_point({}, from[0], from[1], from[2]).point;
-  const double off = kOff * kUlp * reach + 0x1p-90 * largest(p.hi);
-  return glm::length(foot) * (1 + 8 * kUlp) + off + kTiny;
+  const double length = glm::length(offset(p, t, closest_weights({}, from)));
+  return length * (1 + 4 * kUlp) + kOff * (reach + largest(p.hi)) + kTiny;
 }
 
 void Hints::add(uint32_t one) {

@@ -14,7 +14,6 @@
 #include "host/mesh/same_faces.h"
 #include "host/solve/cell_corners.h"
 #include "host/solve/held_pairs.h"
-#include "host/solve/native_runs.h"
 #include "host/survey/proof_tree.h"
 
 namespace vkh {
@@ -102,6 +101,7 @@ class Prover {
       kPartsAtOnce = size_t{1} << 15, kMostOpen = size_t{1} << 21;
   static constexpr size_t kPartsATurn = 256;  // for a thread
   static constexpr uint8_t kSmall = 8;        // halvings
+  static constexpr size_t kFew = 64;
   static constexpr double kMore = 256 * 0x1p-52;
   // No part of a face is proven to 0 where an edge of B crosses it in its plane: so many parts that
   // are so small may take more and more.
@@ -130,6 +130,7 @@ class Prover {
     more_ = kMore;
     while (!open.empty()) {
       std::vector<Open> halves;
+      has_few_ = open.size() <= kFew;
       for (size_t begin = 0; begin < open.size(); begin += kPartsAtOnce) {
         const size_t end = std::min(begin + kPartsAtOnce, open.size());
         std::vector<Open> some(open.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -172,8 +173,9 @@ class Prover {
     return ended_;
   }
 
-  // Adds leaves for the parts that a hint proves; the others stay, in their order. Small parts and
-  // points may take a little more: halving does not lessen the error of the arithmetic.
+  // Adds leaves for the parts that a hint proves; the others stay, in their order. Points may take
+  // a little more, and small parts, unless few are left: those are around the farthest point of A,
+  // where halving goes on until what is left of them is a rounding.
   double close(std::vector<Open>& some, ProofTree& tree) {
     std::vector<std::optional<Leaf>> found(some.size());
     std::atomic<bool> took_more = false;
@@ -182,7 +184,7 @@ class Prover {
       const size_t end = std::min(some.size(), (turn + 1) * kPartsATurn);
       for (size_t i = turn * kPartsATurn; i < end; ++i) {
         found[i] = proof_of(some[i].part, b_, some[i].hints, upper_);
-        if (found[i] || (some[i].depth < kSmall && !is_point(some[i].part))) continue;
+        if (found[i] || !may_take_more(some[i])) continue;
         found[i] = proof_of(some[i].part, b_, some[i].hints, upper_ + more_);
         if (found[i]) took_more = true;
       }
@@ -193,6 +195,10 @@ class Prover {
     }
     std::erase_if(some, [](const Open& one) { return one.is_proven; });
     return took_more ? upper_ + more_ : 0;
+  }
+
+  bool may_take_more(const Open& one) const {
+    return is_point(one.part) || (one.depth >= kSmall && !has_few_);
   }
 
   void add(uint32_t node, const Leaf& leaf, ProofTree& tree) {
@@ -326,6 +332,7 @@ class Prover {
   double upper_;                // bound in the scaled meshes
   std::vector<uint32_t> same_;  // where that is 0: one face of B for each of A
   double more_ = kMore;
+  bool has_few_ = false;
   double raised_ = 0;  // upper_, if the run's was refuted
   size_t seen_ = 0;
   size_t batch_;
@@ -335,7 +342,6 @@ class Prover {
 }  // namespace
 
 Proof prove(Solver& solver, const ProofJob& job) {
-  if (solver.description().type == kNative) refuse_natively("a certificate");
   refuse_any_triangulation(job.a, job.b, "certificate");
   Proof proof;
   SolveOptions options = job.options;

@@ -184,7 +184,7 @@ class Native(unittest.TestCase):
 
     def test_what_needs_a_device_is_refused_before_the_files(self):
         refused = {
-            "distance": ("--align", "--verify", "--preset=paper", "--enable=u4", "--disable=u3", "--certificate=c"),
+            "distance": ("--align", "--verify", "--preset=paper", "--enable=u4", "--disable=u3"),
             "gate": ("--face-max=limits.txt --max=1abs", "--face-max=a.txt --face-max-b=b.txt --symmetric --max=1abs"),
         }
         for command, options in refused.items():

@@ -49,8 +49,8 @@ bool is_at_least(double bound, const exact::Fraction& squared) {
   return b * b * squared.denominator >= squared.numerator;
 }
 
-/// Returns whether it is hardly more than the exact one. Beside a needle or a cap it may not be:
-/// the foot is then off along the triangle.
+/// Returns whether it is hardly more than the exact one. Beside a needle it may not be: the foot is
+/// then off along the triangle.
 bool check(const Tracked& p, const std::array<glm::dvec3, 3>& t, double scale) {
   const double up = distance_up(p.point, t);
   const exact::Fraction exact = distance(p, t);
@@ -80,6 +80,39 @@ TEST_CASE("distances from above, of hard triangles and points that halvings lead
   }
   MESSAGE(wide << " of " << all << " are wide");
   CHECK(wide * 500 <= all);
+}
+
+// What is exact, the offset, costs nothing; its length is rounded a few times, by less than is
+// taken.
+TEST_CASE("a distance from above is off by roundings of the length alone") {
+  Random random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const std::array<glm::dvec3, 3> t = {random.in_cube(1), random.in_cube(1), random.in_cube(1)};
+    const Tracked p = between(tracked(random.in_cube(2)), tracked(random.in_cube(2)), 12345);
+    const double up = distance_up(p.point, t);
+    const exact::Fraction exact = distance(p, t);
+    CHECK(is_at_least(up, exact));
+    if (glm::length(glm::cross(t[1] - t[0], t[2] - t[0])) > 0.1 && up > 0.1)
+      CHECK_FALSE(is_at_least(up * (1 - 8 * 0x1p-52), exact));
+  }
+}
+
+// Near a corner that is the point's high part the distance is its low part, and as far off as that.
+TEST_CASE("a distance from above covers what a hundred halvings leave out of low parts") {
+  Random random(8);
+  for (int i = 0; i < 2000; ++i) {
+    std::array<Tracked, 3> part = {tracked(random.in_cube(1)), tracked(random.in_cube(1)),
+                                   tracked(random.in_cube(1))};
+    for (size_t halving = 0; halving < 100; ++halving) {
+      const size_t gone = halving % 3;
+      part[gone] = between(part[gone], part[(gone + 1) % 3], halving % 2 == 0 ? 1u : 65535u);
+    }
+    const Point2& p = part[0].point;
+    const glm::dvec3 away = glm::length(p.lo) > 0 ? -glm::normalize(p.lo) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 across = 0.25 * random.direction();
+    const std::array<glm::dvec3, 3> t = {p.hi, p.hi + away + across, p.hi + away - across};
+    CHECK(is_at_least(distance_up(p, t), distance(part[0], t)));
+  }
 }
 
 TEST_CASE("a corner of a face is 0 away from it") {

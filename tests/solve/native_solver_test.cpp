@@ -9,6 +9,7 @@
 #include "vkhausdorff/asking.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/face_gate.h"
+#include "vkhausdorff/prover.h"
 #include "vkhausdorff/solver.h"
 #include "vkhausdorff/stream.h"
 #include "vkhausdorff/together.h"
@@ -163,9 +164,41 @@ TEST_CASE("a native stream, and a question of C++") {
   CHECK(surveyed.survey_a->statistics->mean.upper <= kDistance * (1 + 1e-12));
   Question proven;
   proven.certificate = true;
-  CHECK_THROWS_AS(Asking(proven, read(*lid), read(*sheet), solvers).answer(), UsageError);
   proven.device = kNative;
-  CHECK_THROWS_AS(Asking(proven, read(*lid), read(*sheet), solvers), UsageError);
+  const Answer certified = Asking(proven, read(*lid), read(*sheet), solvers).answer();
+  REQUIRE(certified.proof_a);
+  CHECK(certified.proof_a->upper == certified.a_to_b.upper);
+  Question aligned;
+  aligned.align = true;
+  aligned.device = kNative;
+  CHECK_THROWS_AS(Asking(aligned, read(*lid), read(*sheet), solvers), UsageError);
+}
+
+// The bounds of a run are as tight as doubles allow. Were the prover less so, it would halve parts
+// that halving cannot help, and raise the bound.
+TEST_CASE("a native bound is proven as it stands, by as many leaves as a device's") {
+  Solver solver(NativeProcessor{2});
+  const auto check = [&](const Mesh& a, const Mesh& b, size_t most_leaves) {
+    for (const double tolerance : {1e-6, 1e-9}) {
+      SolveOptions options;
+      options.tolerance = tolerance;
+      const Report r = solver.distance(a, b, options);
+      REQUIRE(r.status == Status::kClosed);
+      const Proof proof =
+          prove(solver, {.a = a, .b = b, .report = r, .options = options, .goes_on = {}});
+      CHECK(proof.upper == r.upper);
+      CHECK(proof.unproven == 0);
+      CHECK(proof.leaves <= most_leaves);
+    }
+  };
+  const Mesh small = height_field(6, 1);
+  const Mesh plate = make_mesh("plate", {{-3, -3, 2.3}, {4, -3, 2.3}, {0, 5, 2.3}}, {{0, 1, 2}});
+  const Mesh above = make_mesh("above", {{0, 0, 3.1}, {1, 0, 3.1}, {0, 1, 3.1}}, {{0, 1, 2}});
+  check(above, plate, 1);  // as far everywhere: no part has anything to spare
+  check(small, plate, small.faces.size());
+  check(v_lid(), v_sheet(), 20000);
+  const Mesh a = large(), b = larger();
+  check(a, b, 6 * a.faces.size());
 }
 
 TEST_CASE("a native solver refuses what only devices do") {

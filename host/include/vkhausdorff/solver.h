@@ -75,8 +75,8 @@ class Solver {
   struct SharesPipelines {};
   Solver(SharesPipelines, const Solver& other);
   /// A solver without a device, for distance(), distances(), symmetric() and symmetrics() of meshes
-  /// that are not prepared, and for surveys (survey_mesh()). All else throws UsageError: closest
-  /// points, switches.
+  /// that are not prepared, for surveys (survey_mesh()) and proofs (prove()). All else throws
+  /// UsageError: closest points, switches.
   explicit Solver(const NativeProcessor& processor);
   ~Solver();
   Solver(const Solver&) = delete;
