@@ -373,7 +373,7 @@ ROWS = [
     row("shortened in doubles", PARTS, "1.0f - 8.0f * kUlp, norm_up(r)) * r", ["1.0f + 1.0f * kUlp, norm_up(r)) * r", "1.0f + 4.0f * kUlp, norm_up(r)) * r"], ON_CELLS_IN_DOUBLES),
     row("a reach's slack", CELL_IN_DOUBLES, "g.highest + t.radius + t.slack", ["g.highest + t.radius"], ON_CELLS_IN_DOUBLES),
     row("a reach's float", CELL_IN_DOUBLES, "float_above(far * far)", ["static_cast<float>(far * far)"], ON_CELLS_IN_DOUBLES),
-    row("a box's distance's slack", CELL_IN_DOUBLES, " - 0x1p-74 - t.slack", [" - 0x1p-74"], ON_CELLS_IN_DOUBLES),
+    row("a box's distance's slack", CELL_IN_DOUBLES, " - 0x1p-74 - slack", [" - 0x1p-74"], ON_CELLS_IN_DOUBLES),
     row("a box's distance's underflow", CELL_IN_DOUBLES, " - 0x1p-74", [" - 0x1p-76", ""], ON_CELLS_IN_DOUBLES),
     row("a box's distance's roundings", CELL_IN_DOUBLES, "round_down(root(distance2), 2.0)",
         ["round_down(root(distance2), 1.0)", "round_down(root(distance2), 0.0)", "round_down(root(distance2), -1.0)", "root(distance2)"],

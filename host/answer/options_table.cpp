@@ -678,7 +678,7 @@ std::vector<Option> options_of_many() {
 
 std::vector<Option> options_of_cost() {
   const std::string device = "An index from 'doctor', gpu, cpu, or part of a name";
-  const std::string native = "; native: this processor without Vulkan, for distances and figures";
+  const std::string native = "; native: this processor without Vulkan";
   const std::string best = " [best: discrete, integrated, virtual, CPU]";
   return {
       {.name = "max-input",
@@ -697,10 +697,9 @@ std::vector<Option> options_of_cost() {
                  .help =
                      device + "; several, 0,1, or all GPUs, each for a part of A" + native + best,
                  .more = {"all", "native"}},
-                {.of = kGate | kMetrics | kDemo | kDoctor,
+                {.of = kGate | kMetrics | kSimplify | kDemo | kDoctor,
                  .help = device + native + best,
                  .more = {"native"}},
-                {kSimplify, device + best},
                 {.of = kBatch,
                  .help = "Devices, between commas, as 'doctor' names them; all: every GPU" +
                          native + " [the best]",
@@ -715,7 +714,7 @@ std::vector<Option> options_of_cost() {
        .kind = Kind::kCount,
        .group = Group::kCost,
        .target = to<&Question::threads>,
-       .uses = {{kDistance | kGate | kMetrics | kBatch | kDemo,
+       .uses = {{kDistance | kGate | kMetrics | kBatch | kSimplify | kDemo,
                  "Threads of --device native; answers are the same for any number [one a core]"}},
        .noun = "threads",
        .least = 1,

@@ -143,11 +143,7 @@ bool is_native(const Request& asked) { return asked.question.is_native(); }
 std::vector<Rule> rules_of_devices() {
   return {{{"threads"},
            [](const Request& asked) { return !is_native(asked); },
-           "{threads}: are of {device} native"},
-          {{"device"},
-           is_native,
-           "{device} native: has distances, limits and figures; this command needs a Vulkan device",
-           kSimplify}};
+           "{threads}: are of {device} native"}};
 }
 
 std::vector<Rule> rules_of_simplify() {
@@ -168,10 +164,7 @@ struct OfDevices {
   bool (*is_asked)(const Question&);
 };
 constexpr OfDevices kOfDevices[] = {
-    {"align", [](const Question& q) { return q.align; }},
     {"verify", [](const Question& q) { return q.verify; }},
-    {"face-max", [](const Question& q) { return !q.face_max_a.empty() || q.face_limits_a; }},
-    {"face-max-b", [](const Question& q) { return !q.face_max_b.empty(); }},
     {"preset",
      [](const Question& q) {
        return !q.engine.preset.empty() && q.engine.preset != preset_names().front();

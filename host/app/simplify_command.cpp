@@ -119,6 +119,7 @@ void SimplifyCommand::read() {
   const double share = is_share ? question_.max->number : 1;
   const SessionRequest request{
       .selector = question_.device,
+      .threads = question_.threads,
       .engine = simplify_engine(question_.engine, share),
       .cache_folder = question_.caches ? user_cache_folder() : std::filesystem::path()};
   auto opening = begin_now([request] { return open_session(request); });
@@ -136,7 +137,7 @@ void SimplifyCommand::read() {
   answer_.waits.read = stop_.elapsed_s() * 1000;
   session_ = opening.get();
   answer_.waits.start = session_.setup_ms;
-  answer_.device = session_.device->description();
+  answer_.device = session_.solver->description();
 }
 
 void SimplifyCommand::take_limit() {

@@ -21,11 +21,11 @@ inline float cell_reach(const Gathered& g, const CellFrame& t) {
   return float_above(far * far);
 }
 
-/// <= the distance between T's exact centre and what is in boxes at this distance, squared, as
-/// Walk has it: of the 2^-148 that underflow may have added, the root is 2^-74. A root and two
-/// differences are rounded, 1.5 kUlp of the root.
-inline double box_distance_down(const CellFrame& t, double distance2) {
-  return max(round_down(root(distance2), 2.0) - 0x1p-74 - t.slack, 0.0);
+/// <= the distance between an exact point, from which that in doubles is off by `slack`, and what
+/// is in boxes at this distance, squared, as Walk has it: of the 2^-148 that underflow may have
+/// added, the root is 2^-74. A root and two differences are rounded, 1.5 kUlp of the root.
+inline double box_distance_down(double slack, double distance2) {
+  return max(round_down(root(distance2), 2.0) - 0x1p-74 - slack, 0.0);
 }
 
 }  // namespace vkh::native

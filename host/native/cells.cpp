@@ -50,7 +50,7 @@ class Gathering {
       reach = std::min(reach, cell_reach(g_, v_.cell));
     }
     const auto least = static_cast<double>(walk.least_left(reach));
-    g_ = without(g_, v_.cell, box_distance_down(v_.cell, least));
+    g_ = without(g_, v_.cell, box_distance_down(v_.cell.slack, least));
     near_ = {};
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <utility>
@@ -35,7 +36,7 @@ int floor_divide(int x, int y) { return (x >= 0 ? x : x - y + 1) / y; }
 
 // Finds the number of the frame that serves a point: 0 is B's own. B fills that one, unless B is a
 // single point, which has no size to choose a frame by.
-int frame_number(const FramedB& b, bool has_size, const DVec3& point) {
+int frame_number(const LaidB& b, bool has_size, const DVec3& point) {
   const glm::dvec3 offset = glm::dvec3(point) - b.frame.centre;
   const double extent = std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
   if (!std::isfinite(extent)) return kWholeRange;
@@ -45,7 +46,7 @@ int frame_number(const FramedB& b, bool has_size, const DVec3& point) {
   return has_size ? std::max(number, 0) : number;
 }
 
-Frame frame_of(const FramedB& b, int number) {
+Frame frame_of(const LaidB& b, int number) {
   if (number == kWholeRange) return {glm::dvec3(0), -std::numeric_limits<double>::max_exponent};
   return {b.frame.centre, b.frame.exponent - kFrameDoublings * number};
 }
@@ -78,15 +79,15 @@ void sort_along_curve(const Frame& frame, std::span<const DVec3> points,
 
 class ClosestSearch {
  public:
-  ClosestSearch(Runner& runner, const Mesh& mesh, const ClosestQuestion& question)
-      : runner_(runner), mesh_(mesh), question_(question) {
+  ClosestSearch(const Mesh& mesh, const ClosestQuestion& question)
+      : mesh_(mesh), question_(question) {
     const size_t count = question.points.size();
     result_ = {std::vector<double>(count), std::vector<double>(count), std::vector<DVec3>(count),
                std::vector<uint32_t>(count)};
   }
 
   /// Finds the closest points of those with these numbers, which B's frame serves.
-  void find(const FramedB& b, std::vector<size_t> all) {
+  void find(const LaidB& b, std::vector<size_t> all) {
     sort_along_curve(b.frame, question_.points, all);
     std::span<const size_t> numbers = all;
     while (!numbers.empty()) {
@@ -102,14 +103,13 @@ class ClosestSearch {
   ClosestPoints take() { return std::move(result_); }
 
  private:
-  void find_batch(const FramedB& b, std::span<const size_t> numbers);
-  void settle(const FramedB& b, size_t number, const gpu::ClosestFace& found);
+  void find_batch(const LaidB& b, std::span<const size_t> numbers);
+  void settle(const LaidB& b, size_t number, const gpu::ClosestFace& found);
   FacePoint on_face(size_t number, uint32_t face) const;
   void keep(size_t number, uint32_t face, double lower, const FacePoint& at);
   void measure_all(size_t number);
   void adapt(size_t count, double ms);
 
-  Runner& runner_;
   const Mesh& mesh_;
   const ClosestQuestion& question_;
   ClosestPoints result_;
@@ -119,7 +119,7 @@ class ClosestSearch {
   size_t done_ = 0;
 };
 
-void ClosestSearch::find_batch(const FramedB& b, std::span<const size_t> numbers) {
+void ClosestSearch::find_batch(const LaidB& b, std::span<const size_t> numbers) {
   stored_.resize(numbers.size());
   found_.resize(numbers.size());
   for_each_block(numbers.size(), [&](size_t, size_t begin, size_t end) {
@@ -130,7 +130,7 @@ void ClosestSearch::find_batch(const FramedB& b, std::span<const size_t> numbers
     }
   });
   const auto start = std::chrono::steady_clock::now();
-  runner_.find_closest(mesh_, b.resident, {stored_, found_, b.has_low});
+  b.find({stored_, found_});
   adapt(
       numbers.size(),
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
@@ -164,7 +164,7 @@ bool is_wide(const Frame& frame, double lower, double upper) {
 
 // The device's lower end is of the stored point and mesh. The upper end is measured here, for the
 // coordinates as given: the device has only named the face.
-void ClosestSearch::settle(const FramedB& b, size_t number, const gpu::ClosestFace& found) {
+void ClosestSearch::settle(const LaidB& b, size_t number, const gpu::ClosestFace& found) {
   if (found.face >= mesh_.faces.size())
     throw DeviceError("the device names face " + std::to_string(found.face) + " of " +
                       std::to_string(mesh_.faces.size()));
@@ -208,7 +208,7 @@ void ClosestSearch::adapt(size_t count, double ms) {
 }
 
 // The numbers of the points that each frame serves.
-std::map<int, std::vector<size_t>> by_frame(const FramedB& b, std::span<const DVec3> points) {
+std::map<int, std::vector<size_t>> by_frame(const LaidB& b, std::span<const DVec3> points) {
   const Box box = bounding_box(b.mesh);
   const bool has_size = box.lo != box.hi;
   std::map<int, std::vector<size_t>> groups;
@@ -228,26 +228,33 @@ void check_points(std::span<const DVec3> points) {
   }
 }
 
-ClosestPoints find_closest_points(Runner& runner, const FramedB& b,
+ClosestPoints find_closest_points(const LaidB& b, const LayB& lay,
                                   const ClosestQuestion& question) {
   check_points(question.points);
-  ClosestSearch search(runner, b.mesh, question);
+  ClosestSearch search(b.mesh, question);
   std::map<int, std::vector<size_t>> groups = by_frame(b, question.points);
-  for (auto& [number, numbers] : groups) {
-    if (number == 0) {
-      search.find(b, std::move(numbers));
-      continue;
-    }
-    const StoragePlan stored = store_in(frame_of(b, number), b.mesh);
-    const ResidentMesh resident = runner.build({&b.mesh, &stored});
-    search.find({.mesh = b.mesh,
-                 .frame = stored.frame,
-                 .displacement = stored.displacement,
-                 .has_low = stored.has_low,
-                 .resident = resident},
-                std::move(numbers));
-  }
+  for (auto& [number, numbers] : groups)
+    search.find(number == 0 ? b : lay(frame_of(b, number)), std::move(numbers));
   return search.take();
+}
+
+ClosestPoints find_closest_points(Runner& runner, const FramedB& b,
+                                  const ClosestQuestion& question) {
+  const auto laid = [&runner, &mesh = b.mesh](const StoragePlan& stored, const ResidentMesh& on) {
+    const auto find = [&runner, &mesh, &on, has_low = stored.has_low](PointBatch batch) {
+      batch.has_low = has_low;
+      runner.find_closest(mesh, on, batch);
+    };
+    return LaidB{mesh, stored.frame, stored.displacement, find};
+  };
+  std::deque<ResidentMesh> others;
+  const auto lay = [&](const Frame& frame) {
+    const StoragePlan stored = store_in(frame, b.mesh);
+    return laid(stored, others.emplace_back(runner.build({&b.mesh, &stored})));
+  };
+  const StoragePlan own{
+      .frame = b.frame, .has_low = b.has_low, .displacement = b.displacement, .kept = {}};
+  return find_closest_points(laid(own, b.resident), lay, question);
 }
 
 }  // namespace vkh

@@ -9,6 +9,7 @@
 #include "host/base/parallel.h"
 #include "host/base/system.h"
 #include "host/native/cells.h"
+#include "host/native/closest.h"
 #include "host/native/native.h"
 #include "host/solve/native_cells.h"
 #include "host/solve/run_report.h"
@@ -64,10 +65,6 @@ size_t threads_of(const NativeProcessor& processor) {
   return processor.threads != 0 ? processor.threads : thread_count();
 }
 
-void refuse_prepared(const PairView& pair) {
-  if (pair.prepared != nullptr) refuse_natively("a prepared mesh");
-}
-
 /// Their places are words.
 constexpr size_t kMostCells = size_t{1} << 31;
 
@@ -109,12 +106,11 @@ DeviceDescription describe(const NativeProcessor& processor) {
 }
 
 void refuse_natively(const std::string& what) {
-  throw UsageError("the native solver has distances and surveys alone: " + what +
+  throw UsageError("the native solver does not have everything: " + what +
                    " needs a Vulkan device");
 }
 
 void check_native(const EngineOptions& options) {
-  if (options.closest) refuse_natively("a search for closest points");
   if (options.coverage) refuse_natively("the check of coverage");
   const bool has_preset = !options.preset.empty() && options.preset != "default";
   if (has_preset || !options.enabled.empty() || !options.disabled.empty() || !options.certified)
@@ -146,13 +142,50 @@ struct HeldNatively {
 
 }  // namespace
 
+namespace {
+
+/// Each takes microseconds.
+constexpr size_t kPointsOfPiece = 64;
+
+LaidB laid(const Mesh& b, const Frame& frame, size_t threads,
+           std::shared_ptr<const native::PlacedMesh> placed) {
+  const auto find = [placed, threads](const PointBatch& batch) {
+    const size_t count = batch.points.size();
+    for_each_index((count + kPointsOfPiece - 1) / kPointsOfPiece,
+                   [&](size_t piece) {
+                     const size_t begin = piece * kPointsOfPiece;
+                     for (size_t i = begin; i < std::min(begin + kPointsOfPiece, count); ++i)
+                       batch.found[i] = placed->closest(batch.points[i]);
+                   },
+                   threads);
+  };
+  return {.mesh = b, .frame = frame, .displacement = placed->displacement(), .find = find};
+}
+
+}  // namespace
+
+KeptMesh NativeRuns::kept(Mesh b) const {
+  const Frame frame = frame_mesh(b).frame;
+  KeptMesh kept{.mesh = std::move(b), .box = {}, .frame = frame, .resident = {}, .placed = {}};
+  kept.box = bounding_box(kept.mesh);
+  kept.placed = std::make_shared<const native::PlacedMesh>(kept.mesh, frame);
+  return kept;
+}
+
+ClosestPoints NativeRuns::closest(const KeptMesh& b, const ClosestQuestion& question) const {
+  const size_t threads = threads_of(processor_);
+  const LayB lay = [&](const Frame& frame) {
+    return laid(b.mesh, frame, threads, std::make_shared<const native::PlacedMesh>(b.mesh, frame));
+  };
+  return find_closest_points(laid(b.mesh, b.frame, threads, b.placed), lay, question);
+}
+
 void NativeRuns::hold(std::span<const PairView> pairs, const std::vector<SolveOptions>& options,
                       const UsePairs& use) const {
   HeldNatively held;
   std::vector<SurveyedPair> surveyed;
   for (size_t i = 0; i < pairs.size(); ++i) {
     check_native(options[i].engine);
-    refuse_prepared(pairs[i]);
     check_mesh(pairs[i].a);
     check_mesh(pairs[i].b);
     surveyed.push_back(held.add(pairs[i], options[i], threads_of(processor_)));
@@ -167,7 +200,6 @@ std::vector<Report> NativeRuns::distances(std::span<const PairView> pairs,
   std::vector<Report> reports;
   for (size_t i = 0; i < pairs.size(); ++i) {
     check_native(options[i].engine);
-    refuse_prepared(pairs[i]);
     reports.push_back(distance(pairs[i], options[i], i));
   }
   return reports;

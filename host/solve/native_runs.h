@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "host/solve/cells.h"
+#include "host/solve/closest_search.h"
+#include "host/solve/pair.h"
 #include "vkhausdorff/solver.h"
 
 namespace vkh {
 
 /// Throws UsageError: `what` is done on a device alone.
 [[noreturn]] void refuse_natively(const std::string& what);
-/// Refuses pipelines that only devices have: switches, closest points, coverage.
+/// Refuses pipelines that only devices have: switches, coverage.
 void check_native(const EngineOptions& options);
 
 /// Threads may share it.
@@ -26,6 +28,10 @@ class NativeRuns {
   /// Does one pair after the other. `options`: one for each.
   std::vector<Report> distances(std::span<const PairView> pairs,
                                 const std::vector<SolveOptions>& options) const;
+
+  /// B in its own frame, for closest points.
+  KeptMesh kept(Mesh b) const;
+  ClosestPoints closest(const KeptMesh& b, const ClosestQuestion& question) const;
 
   /// As hold_pairs() does. `options`: one for each pair.
   void hold(std::span<const PairView> pairs, const std::vector<SolveOptions>& options,

@@ -8,7 +8,12 @@
 
 namespace vkh {
 
-/// A prepared B: its frame is its own, and it lies on the device.
+namespace native {
+class PlacedMesh;  // host/native/closest.h
+}
+
+/// A prepared B: its frame is its own, and it lies on the device; or on the processor alone, where
+/// distances make their own of it.
 struct KeptMesh {
   Mesh mesh;
   Box box;
@@ -16,6 +21,7 @@ struct KeptMesh {
   double displacement = 0;
   bool has_low = false;
   ResidentMesh resident;
+  std::shared_ptr<const native::PlacedMesh> placed;  ///< natively
 };
 
 /// Whether the frame of a mesh B with that box serves an A with this one: PreparedMesh::serves().

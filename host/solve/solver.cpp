@@ -416,13 +416,17 @@ PreparedMesh Solver::prepare(Mesh b) {
   const FloatEnvironment ours;
   check_mesh(b);
   auto kept = std::make_unique<PreparedMesh::Impl>();
+  if (native_ != nullptr) {
+    static_cast<KeptMesh&>(*kept) = native_->kept(std::move(b));
+    return PreparedMesh(std::move(kept));
+  }
   kept->mesh = std::move(b);
   kept->box = bounding_box(kept->mesh);
   const FramedMesh framed = frame_mesh(kept->mesh);
   kept->frame = framed.frame;
   kept->displacement = framed.stored.displacement;
   kept->has_low = framed.stored.has_low;
-  kept->resident = on_device().runner.build({&kept->mesh, &framed.stored});
+  kept->resident = impl_->runner.build({&kept->mesh, &framed.stored});
   return PreparedMesh(std::move(kept));
 }
 
@@ -430,21 +434,25 @@ ClosestPoints Solver::closest(const PreparedMesh& b, std::span<const DVec3> poin
                               const ClosestGoesOn& goes_on) {
   FloatEnvironment ours;
   const PreparedMesh::Impl& kept = *b.impl_;
-  return find_closest_points(on_device().runner,
+  const ClosestQuestion question{points, heard_outside(goes_on, ours)};
+  if (native_ != nullptr) return native_->closest(kept, question);
+  return find_closest_points(impl_->runner,
                              {.mesh = kept.mesh,
                               .frame = kept.frame,
                               .displacement = kept.displacement,
                               .has_low = kept.has_low,
                               .resident = kept.resident},
-                             {points, heard_outside(goes_on, ours)});
+                             question);
 }
 
 ClosestPoints Solver::closest(const Mesh& b, std::span<const DVec3> points,
                               const ClosestGoesOn& goes_on) {
   FloatEnvironment ours;
   check_mesh(b);
+  const ClosestQuestion question{points, heard_outside(goes_on, ours)};
+  if (native_ != nullptr) return native_->closest(native_->kept(b), question);
   const FramedMesh framed = frame_mesh(b);
-  Runner& runner = on_device().runner;
+  Runner& runner = impl_->runner;
   const ResidentMesh resident = runner.build({&b, &framed.stored});
   return find_closest_points(runner,
                              {.mesh = b,
@@ -452,7 +460,7 @@ ClosestPoints Solver::closest(const Mesh& b, std::span<const DVec3> points,
                               .displacement = framed.stored.displacement,
                               .has_low = framed.stored.has_low,
                               .resident = resident},
-                             {points, heard_outside(goes_on, ours)});
+                             question);
 }
 
 bool PreparedMesh::serves(const Mesh& a) const {

@@ -184,8 +184,7 @@ class Native(unittest.TestCase):
 
     def test_what_needs_a_device_is_refused_before_the_files(self):
         refused = {
-            "distance": ("--align", "--verify", "--preset=paper", "--enable=u4", "--disable=u3"),
-            "gate": ("--face-max=limits.txt --max=1abs", "--face-max=a.txt --face-max-b=b.txt --symmetric --max=1abs"),
+            "distance": ("--verify", "--preset=paper", "--enable=u4", "--disable=u3"),
         }
         for command, options in refused.items():
             for option in options:
@@ -193,9 +192,35 @@ class Native(unittest.TestCase):
                     done = self.run_with(command, "no.ply", "file.ply", *option.split(), *NATIVE, code=USAGE)
                     self.assertRegex(done.stderr, f"{option.split('=')[0]}: needs a Vulkan device")
                     self.assertEqual(done.stdout, "")
-        self.assertIn("Vulkan device", self.run_with("simplify", "no.ply", "--max=1abs", "--out=o.ply", *NATIVE, code=USAGE).stderr)
         self.assertIn("--threads", self.run_with("distance", "no.ply", "file.ply", "--threads=2", code=USAGE).stderr)
         self.assertIn("native", self.run_with("distance", "inner.ply", "outer.ply", "--device=native,0", code=USAGE).stderr)
+
+    def test_limits_of_faces(self):
+        count = len(bent(24, 0.05)[1])
+        for name, limit, code in (("within", "0.06", PASS), ("beyond", "0.02", FAIL)):
+            (self.folder / f"{name}.csv").write_text("".join(f"{face},{limit}\n" for face in range(count - 400, count)))
+            words = ("gate", "sheet.ply", "flat.ply", "--max=0.06abs", f"--face-max={name}.csv", "--json")
+            native, device = self.run_with(*words, *NATIVE, code=code, **NO_DRIVER), self.run_with(*words, code=code)
+            self.assertEqual(json.loads(native.stdout)["verdict"], json.loads(device.stdout)["verdict"])
+
+    def test_a_fit(self):
+        """A lies turned and shifted: the fits of both find it again."""
+        at, faces = bent(24, 0.2)
+        turned = [(x * math.cos(0.4) - y * math.sin(0.4) + 3, x * math.sin(0.4) + y * math.cos(0.4), z - 1) for x, y, z in at]
+        for name, mesh in (("still", at), ("turned", turned)):
+            (self.folder / f"{name}.ply").write_bytes(meshes.as_ply(mesh, faces))
+        for device in (NATIVE, ()):
+            found = self.answer("distance", "turned.ply", "still.ply", "--align", *device)
+            self.assertLess(ends(found)[1], 1e-4)
+
+    def test_simplify(self):
+        words = ("simplify", "sheet.ply", "--max=0.01abs", "--out=small.ply", "--certificate=small.vhc", *NATIVE)
+        done = self.run_with(*words, **NO_DRIVER)
+        if done.returncode == USAGE and "meshoptimizer" in done.stderr:
+            self.skipTest("built without meshoptimizer")
+        self.assertEqual(done.returncode, PASS, done.stderr)
+        found = self.answer("distance", "sheet.ply", "small.ply", "--symmetric", *NATIVE)
+        self.assertLessEqual(ends(found)[0], 0.01)
 
     def test_budgets_end_with_a_true_interval(self):
         large, spheres = ("large.ply", "wide.ply"), ("inner.ply", "outer.ply")

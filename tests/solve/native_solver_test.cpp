@@ -168,10 +168,10 @@ TEST_CASE("a native stream, and a question of C++") {
   const Answer certified = Asking(proven, read(*lid), read(*sheet), solvers).answer();
   REQUIRE(certified.proof_a);
   CHECK(certified.proof_a->upper == certified.a_to_b.upper);
-  Question aligned;
-  aligned.align = true;
-  aligned.device = kNative;
-  CHECK_THROWS_AS(Asking(aligned, read(*lid), read(*sheet), solvers), UsageError);
+  Question verified;
+  verified.verify = true;
+  verified.device = kNative;
+  CHECK_THROWS_AS(Asking(verified, read(*lid), read(*sheet), solvers), UsageError);
 }
 
 // The bounds of a run are as tight as doubles allow. Were the prover less so, it would halve parts
@@ -201,16 +201,23 @@ TEST_CASE("a native bound is proven as it stands, by as many leaves as a device'
   check(a, b, 6 * a.faces.size());
 }
 
+TEST_CASE("a mesh that is prepared natively gives the same distances, and limits of faces") {
+  Solver solver(NativeProcessor{2});
+  const Mesh lid = v_lid();
+  const PreparedMesh sheet = solver.prepare(v_sheet());
+  const Report r = solver.distance(lid, sheet), alone = solver.distance(lid, sheet.mesh());
+  CHECK(r.lower == alone.lower);
+  CHECK(r.upper == alone.upper);
+  std::vector<Limit> limits(lid.faces.size(), Limit{2, 2});
+  CHECK(gate_faces(solver, lid, sheet.mesh(), limits, {}).verdict == Verdict::kWithin);
+  limits.assign(lid.faces.size(), Limit{kDistance / 2, kDistance / 2});
+  CHECK(gate_faces(solver, lid, sheet.mesh(), limits, {}).verdict == Verdict::kBeyond);
+}
+
 TEST_CASE("a native solver refuses what only devices do") {
   Solver solver(NativeProcessor{}), other(NativeProcessor{});
   const Mesh lid = v_lid(), sheet = v_sheet();
   CHECK_THROWS_AS(solver.device(), UsageError);
-  CHECK_THROWS_AS(solver.prepare(sheet), UsageError);
-  const DVec3 point{0, 0, 0};
-  CHECK_THROWS_AS(solver.closest(sheet, {&point, 1}), UsageError);
-  const Limit limit{1, 1};
-  const std::vector<Limit> limits(lid.faces.size(), limit);
-  CHECK_THROWS_AS(gate_faces(solver, lid, sheet, limits, {}), UsageError);
   Solver* const solvers[] = {&solver, &other};
   CHECK_THROWS_AS(distance_over(solvers, lid, sheet), UsageError);
   SolveOptions options;

@@ -18,7 +18,7 @@ _vkhausdorff() {
     --view) mapfile -t COMPREPLY < <(compgen -W "iso six" -- "$current"); return ;;
     --up) mapfile -t COMPREPLY < <(compgen -W "y z" -- "$current"); return ;;
     --map) mapfile -t COMPREPLY < <(compgen -W "viridis batlow cividis" -- "$current"); return ;;
-    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu $([[ " distance batch " != *" $command "* ]] || echo all) $([[ " distance gate metrics demo doctor batch " != *" $command "* ]] || echo native)" -- "$current"); return ;;
+    --device) mapfile -t COMPREPLY < <(compgen -W "gpu cpu $([[ " distance batch " != *" $command "* ]] || echo all) $([[ " distance gate metrics simplify demo doctor batch " != *" $command "* ]] || echo native)" -- "$current"); return ;;
     --preset) mapfile -t COMPREPLY < <(compgen -W "default paper baseline-gpu" -- "$current"); return ;;
     --enable) mapfile -t COMPREPLY < <(compgen -W "centroid parent_samples tolerance_cull thin u3 u4 warm_start group_walk shared_faces sort packet defer largest_first u3_paper split_twice wide multiwave" -- "$current"); return ;;
     --disable) mapfile -t COMPREPLY < <(compgen -W "centroid parent_samples tolerance_cull thin u3 u4 warm_start group_walk shared_faces sort packet defer largest_first u3_paper split_twice wide multiwave" -- "$current"); return ;;
@@ -30,7 +30,7 @@ _vkhausdorff() {
     metrics) options="--tol --percentile --bands --figures --normals --effort --polygons --bodies --points --unit --unit-a --unit-b --transform --scale --align --save-transform --json --verbose --verify --max-input --device --threads --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
     batch) options="--max --tol --symmetric --signed --metrics --percentile --bands --figures --normals --max-distance --effort --polygons --bodies --points --unit --unit-a --unit-b --transform --scale --align --out --csv --junit --github --image-dir --report-dir --view --up --size --map --range --steps --against --allow-unpaired --resume --shard --fail-fast --together --lanes --read-ahead --max-input --device --threads --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
     merge) options="--out --csv --junit --list --reproducible --help --help-all" ;;
-    simplify) options="--max --one-way --lock-borders --levels --ratio --polygons --bodies --unit --out --certificate --json --max-input --device --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
+    simplify) options="--max --one-way --lock-borders --levels --ratio --polygons --bodies --unit --out --certificate --json --max-input --device --threads --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
     demo) options="--tol --symmetric --stats --signed --bands --max-distance --field-tol --effort --field --image --report --title --figures-csv --points-out --json --verbose --verify --view --up --size --map --range --steps --device --threads --time --memory --waves --preset --enable --disable --no-cache --help --help-all" ;;
     doctor) options="--json --device --help --help-all" ;;
     help) options="$commands" ;;

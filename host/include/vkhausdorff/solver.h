@@ -74,9 +74,9 @@ class Solver {
   /// that either makes, both have.
   struct SharesPipelines {};
   Solver(SharesPipelines, const Solver& other);
-  /// A solver without a device, for distance(), distances(), symmetric() and symmetrics() of meshes
-  /// that are not prepared, for surveys (survey_mesh()) and proofs (prove()). All else throws
-  /// UsageError: closest points, switches.
+  /// A solver without a device. Presets, switches, the check of coverage and a run over several
+  /// solvers throw UsageError, and so does device(). What is prepared is kept for closest points;
+  /// distances of it are those of its mesh.
   explicit Solver(const NativeProcessor& processor);
   ~Solver();
   Solver(const Solver&) = delete;

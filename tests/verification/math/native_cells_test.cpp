@@ -246,7 +246,7 @@ TEST_CASE("a reach is not under what it covers, and a box's distance not above w
     const Rational reach = Rational(g.highest) + Rational(t.radius) + Rational(t.slack);
     REQUIRE(Rational(double{cell_reach(g, t)}) >= reach * reach + underflow);
     const double distance2 = random.below(4) == 0 ? any(-148) : any(-30);
-    const Rational d(box_distance_down(t, distance2));
+    const Rational d(box_distance_down(t.slack, distance2));
     REQUIRE((d == 0 ||
              (d + Rational(t.slack)) * (d + Rational(t.slack)) + underflow <= Rational(distance2)));
   }
