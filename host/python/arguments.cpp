@@ -148,12 +148,7 @@ std::string Arguments::text(const char* name, const char* expected) const {
 
 std::string Arguments::device(const char* expected) const {
   const py::object* given = find("device");
-  if (given == nullptr || py::isinstance<py::str>(*given)) {
-    std::string selector = text("device", expected);
-    if (selector == kNative)
-      throw UsageError("device: expected a Vulkan device; 'native' is the program's and C++'s");
-    return selector;
-  }
+  if (given == nullptr || py::isinstance<py::str>(*given)) return text("device", expected);
   const std::optional<uint64_t> index = whole("device", expected);
   if (!index) refuse_type("device", expected, *given);
   return std::to_string(*index);

@@ -25,7 +25,8 @@ py::object exception_of(const std::exception_ptr& error) {
 }
 
 constexpr const char* kSelectors =
-    "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, or "
+    "'', 'gpu', 'cpu', 'native', an index such as 0, part of a name, several of these between "
+    "commas, or "
     "'all'";
 
 size_t ahead_of(const Arguments& given) {

@@ -32,7 +32,7 @@ constexpr const char* kDistanceText =
     "va, vb: (n, 3) float32, float64 or integers up to 2^53; fa, fb: (m, 3) integers. tol: "
     "a\n"
     "fraction of the diagonal of A's bounding box, or a string such as '0.1%' or '0.01abs'.\n"
-    "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', an index such as 0,\n"
+    "time: seconds; memory: bytes or '2GiB'; device: '', 'gpu', 'cpu', 'native', an index,\n"
     "part of a name or a Device. progress(wave, lower, upper) hears the search alone;\n"
     "on_progress(fraction, lower, upper) all work: the fraction grows to 1, which comes "
     "last, "

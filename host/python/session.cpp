@@ -45,9 +45,12 @@ Reply ask_python(void* data) {
 
 struct Session::Opened {
   explicit Opened(const std::string& selector)
-      : device(DeviceRequest{.selector = selector}), solver(device) {}
-  Device device;
-  Solver solver;
+      : device(selector == kNative ? nullptr
+                                   : std::make_unique<Device>(DeviceRequest{.selector = selector})),
+        solver(device == nullptr ? std::make_unique<Solver>(NativeProcessor{})
+                                 : std::make_unique<Solver>(*device)) {}
+  std::unique_ptr<Device> device;  // null: the processor alone
+  std::unique_ptr<Solver> solver;
   std::map<Key, std::shared_ptr<const PreparedMesh>> prepared;
 };
 
@@ -100,7 +103,7 @@ void Session::open() {
   for (const std::string& selector : selectors_) all.push_back(std::make_unique<Opened>(selector));
   opened_ = std::move(all);
   is_lost_ = false;
-  change_now([&] { description_ = opened_.front()->device.description(); });
+  change_now([&] { description_ = opened_.front()->solver->description(); });
 }
 
 pybind11::value_error Session::closed() const {
@@ -131,13 +134,14 @@ std::shared_ptr<const PreparedMesh> Session::prepared(Opened& on, Key key) {
   if (mesh == meshes_.end()) throw py::value_error("this Solver is closed");
   std::shared_ptr<const PreparedMesh>& kept = on.prepared[key];
   if (kept == nullptr)
-    kept = std::make_shared<const PreparedMesh>(on.solver.prepare(*mesh->second));
+    kept = std::make_shared<const PreparedMesh>(on.solver->prepare(*mesh->second));
   return kept;
 }
 
 bool Session::has_lost_one() const {
-  return std::any_of(opened_.begin(), opened_.end(),
-                     [](const auto& one) { return one->device.is_lost(); });
+  return std::any_of(opened_.begin(), opened_.end(), [](const auto& one) {
+    return one->device != nullptr && one->device->is_lost();
+  });
 }
 
 // A lost device may show itself by another error first, so that it is checked after each; or by
@@ -149,7 +153,7 @@ void Session::run(const WorkOver& work, Key key) {
     std::vector<std::shared_ptr<const PreparedMesh>> kept;  // they may be dropped meanwhile
     std::vector<const PreparedMesh*> b;
     for (auto& one : opened_) {
-      solvers.push_back(&one->solver);
+      solvers.push_back(one->solver.get());
       if (key == 0) continue;
       kept.push_back(prepared(*one, key));
       b.push_back(kept.back().get());

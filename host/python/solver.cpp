@@ -23,10 +23,13 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr const char* kSelector = "'', 'gpu', 'cpu', an index such as 0 or part of a name";
-constexpr const char* kDevice = "'', 'gpu', 'cpu', an index such as 0, part of a name or a Device";
+constexpr const char* kSelector =
+    "'', 'gpu', 'cpu', 'native', an index such as 0 or part of a name";
+constexpr const char* kDevice =
+    "'', 'gpu', 'cpu', 'native', an index such as 0, part of a name or a Device";
 constexpr const char* kDevices =
-    "'', 'gpu', 'cpu', an index such as 0, part of a name, several of these between commas, 'all' "
+    "'', 'gpu', 'cpu', 'native', an index such as 0, part of a name, several of these between "
+    "commas, 'all' "
     "or a Device";
 
 // One session for each choice of devices, kept between calls of distance(): making one takes longer
