@@ -100,6 +100,7 @@ MapGoals::MapGoals(const SurveyOptions& options, const SurveyedPair& pair, const
       least_(least_area(pair, areas, *options.map) / areas.whole),
       floor_(least_width(pair)),
       is_sought_(!options.map->bar && farthest > 0),
+      is_known_(!is_sought_),
       bar_(options.map->bar ? pair.frame.to_frame(*options.map->bar) : 0),
       farthest_(farthest),
       from_(least_bar()),
@@ -108,7 +109,7 @@ MapGoals::MapGoals(const SurveyOptions& options, const SurveyedPair& pair, const
 // Distances in a geometric row, and then the one beyond which the map leaves cells out.
 std::vector<Threshold> MapGoals::thresholds() const {
   std::vector<Threshold> at;
-  if (!is_sought_) return at;
+  if (is_known_) return at;
   for (int k = 0; k <= kCuts; ++k) {
     const double d = from_ * std::pow(to_ / from_, static_cast<double>(k) / kCuts);
     at.push_back({d, d});
@@ -121,7 +122,7 @@ std::vector<Threshold> MapGoals::thresholds() const {
 // there taken together: cells that are still wide would make it too long, and others be left too
 // wide. It only steers. Looks again where it is outside of the distances, or these are far apart.
 bool MapGoals::look(const Tallied& tallied) {
-  if (!is_sought_) return false;
+  if (is_known_) return false;
   const std::vector<Threshold> at = thresholds();
   const double wanted = 0.99 * tallied.shares.back().upper;
   const auto is_within = [&](size_t k) { return tallied.shares[k].upper >= wanted; };
@@ -138,6 +139,7 @@ bool MapGoals::look(const Tallied& tallied) {
   const bool is_coarse = to_ > 8 * from_;
   from_ = bar_ / kNarrow;
   to_ = std::min(at[next].down * kNarrow, farthest_);
+  is_known_ = is_nearly_met_ && !is_coarse;
   return is_coarse;
 }
 

@@ -28,17 +28,23 @@ class MapGoals : public WaveGoals {
   }
   uint32_t parts() const override { return is_nearly_met_ ? 2 : 4; }
   /// First splits into four what is too wide by a factor of two, and then into two what is too
-  /// wide: halves have about half of a cell's width, and of its area.
-  void begin_coarse() { is_nearly_met_ = false; }
-  void begin_fine() { is_nearly_met_ = true; }
+  /// wide: halves have about half of a cell's width, and of its area. The bar's end moves little by
+  /// then, and is sought once more.
+  void begin_coarse() { begin(false); }
+  void begin_fine() { begin(true); }
 
  private:
+  void begin(bool fine) {
+    is_nearly_met_ = fine;
+    is_known_ = !is_sought_;
+  }
   double least_bar() const { return std::ldexp(farthest_, -kOctaves); }
   static constexpr int kOctaves = 20, kCuts = 12;
   static constexpr double kNarrow = 1.5;  // so far may the bar's end move between two looks
   const double most_, open_, least_, floor_;
-  const bool is_sought_;  // the bar's end
-  double bar_;            // the bar's end, in the frame
+  const bool is_sought_;  // the bar's end,
+  bool is_known_;         // for as long as cells are split as they are
+  double bar_;            // in the frame
   const double farthest_;
   double from_, to_;  // where it is sought
   bool is_nearly_met_ = false;

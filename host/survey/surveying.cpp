@@ -171,11 +171,12 @@ void Surveying::add_normals(Statistics& statistics) {
 // Figures may be asked for afterwards where the cells are.
 void Surveying::add_map(SurveyResult& result) {
   if (!store_) store_.emplace(waves_->store());
-  result.map = map_of({*store_, areas_}, pair_, options_);
-  if (sided_) add_sides(sided_->of(*store_), *result.map);
+  CellMap map = map_of({*store_, areas_}, pair_, options_);
+  if (sided_) add_sides(sided_->of(*store_), map);
   if (has_cheap_sides_)
     add_cheap_sides(
-        pair_, *store_, [this] { return meter_.sides_go_on(); }, *result.map);
+        pair_, *store_, [this] { return meter_.sides_go_on(); }, map);
+  result.map = std::make_shared<const CellMap>(std::move(map));
 }
 
 void Surveying::add_counts(SurveyResult& result) const {

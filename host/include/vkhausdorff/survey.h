@@ -101,8 +101,8 @@ struct SurveyResult {
   std::optional<FieldSummary> summary = {};
   std::optional<Statistics> statistics;
   std::optional<SignedFigures> sides = {};
-  std::optional<CellMap> map = {};       ///< none where A has no area
-  std::optional<MapShares> shares = {};  ///< those that pictures of the map name
+  std::shared_ptr<const CellMap> map = {};  ///< null where A has no area; copies share it
+  std::optional<MapShares> shares = {};     ///< those that pictures of the map name
   SurveyEnd ended = SurveyEnd::kCancelled;
   bool is_met() const { return ended == SurveyEnd::kMet; }
   size_t effort = 0;  ///< SurveyOptions::effort, or the default
