@@ -56,10 +56,14 @@ VKH_FN DrawnCell drawn_of(CellBounds b) {
 }
 
 // Scores a cell for a map by how much more than `step` it is off, unless all of it is farther than
-// `most`. A step of 0: there is no map.
+// `most`. One that may touch B has no side, perhaps: its colour is none where it reaches farther
+// than two steps. A step of 0: there is no map.
 VKH_FN float map_score(CellBounds b, float step, float most) {
-  float more = max(drawn_of(b).off - step, 0.0f);
-  return choose(step == 0.0f || lowest_of(b) > most, 0.0f, more);
+  DrawnCell drawn = drawn_of(b);
+  float lowest = lowest_of(b);
+  float reach = choose(lowest > 0.0f, 0.0f, max3(drawn.at) + drawn.off);
+  float more = max(max(drawn.off, 0.5f * reach) - step, 0.0f);
+  return choose(step == 0.0f || lowest > most, 0.0f, more);
 }
 
 // The cell's share of A's area, of which its face has a weight.
