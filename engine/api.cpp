@@ -586,12 +586,41 @@ void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
   vkh::record_survey_tally(rec, call.p, call.streams, *tally);
 }
 
-void vkhCmdReadSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
-                      const VkhSurvey* survey, const VkhSurveyRead* read) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, read->cells);
+void vkhCmdFindSurveySides(VkhContext context, VkCommandBuffer commandBuffer,
+                           const VkhProblem* problem, const VkhSurvey* survey,
+                           const VkhSurveySides* sides) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+                             uint64_t{sides->first} + sides->count);
+  if (!call.records() || sides->count == 0) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_sides(rec, call.p, call.streams, *sides);
+}
+
+void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
+                            const VkhProblem* problem, const VkhSurvey* survey,
+                            const VkhSurveyFaces* faces) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, faces->cells);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
-  vkh::record_survey_read(rec, call.p, call.streams, *read);
+  vkh::record_survey_faces(rec, call.p, call.streams, *faces);
+}
+
+void vkhCmdReadSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                      const VkhSurvey* survey, const VkhSurveyRead* read) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+                             uint64_t{read->first} + read->count);
+  if (!call.records()) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_read(rec, call.streams, *read);
+}
+
+void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                       const VkhSurvey* survey, const VkhSurveyWrite* write) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+                             uint64_t{write->first} + write->count);
+  if (!call.records()) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_write(rec, call.streams, *write);
 }
 
 // NOLINTNEXTLINE(readability-function-size)

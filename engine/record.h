@@ -119,9 +119,16 @@ void record_survey_bound(Recorder& rec, const Problem& p, const SurveyStreams& s
 // Adds up all cells at the plan's edges into `table`.
 void record_survey_tally(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyTally& tally);
-// Copies each face's reached, and then each face's highest, as VkhSurveyRead has it; and the cells.
-void record_survey_read(Recorder& rec, const Problem& p, const SurveyStreams& survey,
-                        const VkhSurveyRead& read);
+// Finds the sides of cells.
+void record_survey_sides(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurveySides& sides);
+// Copies what each face reaches, and then what none of its points exceeds.
+void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurveyFaces& faces);
+// Copies cells, with their bounds and classes.
+void record_survey_read(Recorder& rec, const SurveyStreams& survey, const VkhSurveyRead& read);
+// Takes over bounds that the host has narrowed.
+void record_survey_write(Recorder& rec, const SurveyStreams& survey, const VkhSurveyWrite& write);
 // Copies what the survey knows into one with more room.
 void record_survey_move(Recorder& rec, const SurveyStreams& from, const SurveyStreams& to,
                         uint32_t cells);

@@ -16,7 +16,8 @@ struct SurveyGiven : RunBuffers {
         bounds(s.bounds),
         weights(s.weights),
         faces_reached(s.faces_reached),
-        faces_highest(s.faces_highest),
+        faces_told(s.faces_told),
+        classes(s.classes),
         keys(s.keys),
         parents(s.parents),
         blocks(s.blocks),
@@ -28,7 +29,7 @@ struct SurveyGiven : RunBuffers {
   Slice<gpu::Cell> cells;
   Slice<gpu::CellBounds> bounds;
   Slice<gpu::Wide> weights;
-  Slice<uint32_t> faces_reached, faces_highest, keys, parents;
+  Slice<uint32_t> faces_reached, faces_told, classes, keys, parents;
   Slice<gpu::SurveyCounts> blocks;
   Slice<uint32_t> histogram;
   Slice<gpu::SurveyPlan> plan;
@@ -115,24 +116,66 @@ void record_survey_tally(Recorder& rec, const Problem& p, const SurveyStreams& s
   rec.copy(survey.table, {tally.tableBuffer, tally.tableOffset, sizeof(gpu::SurveyTable)});
 }
 
-void record_survey_read(Recorder& rec, const Problem& p, const SurveyStreams& survey,
-                        const VkhSurveyRead& read) {
+void record_survey_sides(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurveySides& sides) {
+  const auto scope = rec.scope("survey sides");
+  struct Given : SurveyGiven<gpu::SurveySidesPush> {
+    using SurveyGiven::SurveyGiven;
+    Slice<uint32_t> face_kinds;
+  };
+  Given given(p, survey,
+              gpu::SurveySidesPush{.first = sides.first,
+                                   .end = sides.first + sides.count,
+                                   .face_count = p.face_count,
+                                   .triangle_count = p.b.face_count,
+                                   .above = sides.above,
+                                   .moved = sides.moved,
+                                   .is_solid = sides.isSolid,
+                                   .front = sides.front});
+  given.face_kinds = {sides.kindBuffer, sides.kindOffset,
+                      VkDeviceSize{p.b.face_count} * sizeof(uint32_t)};
+  rec.run<k::SurveySides>(given, Items{sides.count});
+}
+
+// Copies what is told of each face to the caller's buffer. What a face reached before its cells
+// were split is kept.
+void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurveyFaces& faces) {
+  const auto scope = rec.scope("survey faces");
+  const VkDeviceSize bytes = VkDeviceSize{p.face_count} * sizeof(uint32_t);
+  const auto tell = [&](uint32_t classes, uint32_t reached, VkDeviceSize offset) {
+    if (reached != 0 && classes == gpu::kAllClasses) {
+      rec.copy(survey.faces_reached, survey.faces_told);
+    } else {
+      rec.fill(survey.faces_told, 0);
+    }
+    const SurveyGiven given(p, survey, gpu::SurveyFacesPush{faces.cells, classes, reached});
+    rec.run<k::SurveyFaces>(given, Items{faces.cells});
+    rec.copy(first_of(survey.faces_told, p.face_count),
+             {faces.buffer, faces.offset + offset, bytes});
+  };
+  tell(faces.reachedClasses, 1, 0);
+  tell(faces.highestClasses, 0, bytes);
+}
+
+void record_survey_read(Recorder& rec, const SurveyStreams& survey, const VkhSurveyRead& read) {
   const auto scope = rec.scope("survey read");
-  if (read.faceBuffer != VK_NULL_HANDLE) {
-    const VkDeviceSize bytes = VkDeviceSize{p.face_count} * sizeof(uint32_t);
-    rec.fill(survey.faces_highest, 0);
-    const SurveyGiven given(p, survey, gpu::CountPush{read.cells});
-    rec.run<k::SurveyFaces>(given, Items{read.cells});
-    rec.copy(first_of(survey.faces_reached, p.face_count),
-             {read.faceBuffer, read.faceOffset, bytes});
-    rec.copy(first_of(survey.faces_highest, p.face_count),
-             {read.faceBuffer, read.faceOffset + bytes, bytes}, Order::kIndependent);
-  }
-  if (read.cellBuffer == VK_NULL_HANDLE) return;
-  const Slice<gpu::Cell> cells = first_of(survey.cells, read.cells);
-  const Slice<gpu::CellBounds> bounds = first_of(survey.bounds, read.cells);
-  rec.copy(cells, {read.cellBuffer, read.cellOffset, cells.size});
-  rec.copy(bounds, {read.boundsBuffer, read.boundsOffset, bounds.size}, Order::kIndependent);
+  const auto copy = [&]<class T>(const Slice<T>& from, VkBuffer buffer, VkDeviceSize offset) {
+    const VkDeviceSize size = read.count * sizeof(T);
+    rec.copy(Slice<T>{from.buffer, from.offset + read.first * sizeof(T), size},
+             {buffer, offset, size}, Order::kIndependent);
+  };
+  copy(survey.cells, read.cellBuffer, read.cellOffset);
+  copy(survey.bounds, read.boundsBuffer, read.boundsOffset);
+  copy(survey.classes, read.classBuffer, read.classOffset);
+}
+
+void record_survey_write(Recorder& rec, const SurveyStreams& survey, const VkhSurveyWrite& write) {
+  const auto scope = rec.scope("survey write");
+  const VkDeviceSize size = write.count * sizeof(gpu::CellBounds);
+  rec.copy(
+      Slice<gpu::CellBounds>{write.boundsBuffer, write.boundsOffset, size},
+      {survey.bounds.buffer, survey.bounds.offset + write.first * sizeof(gpu::CellBounds), size});
 }
 
 void record_survey_move(Recorder& rec, const SurveyStreams& from, const SurveyStreams& to,
@@ -142,6 +185,7 @@ void record_survey_move(Recorder& rec, const SurveyStreams& from, const SurveySt
   rec.copy(from.faces_reached, to.faces_reached, Order::kIndependent);
   rec.copy(first_of(from.cells, cells), to.cells, Order::kIndependent);
   rec.copy(first_of(from.bounds, cells), to.bounds, Order::kIndependent);
+  rec.copy(first_of(from.classes, cells), to.classes, Order::kIndependent);
   rec.copy(first_of(from.keys, cells), to.keys, Order::kIndependent);
 }
 

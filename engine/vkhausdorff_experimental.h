@@ -116,19 +116,55 @@ VKH_API void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer
                                const VkhProblem* problem, const VkhSurvey* survey,
                                const VkhSurveyTally* tally);
 
+typedef struct VkhSurveySides {
+  uint32_t first, count; /* of the cells */
+  float above;           /* cells that are nowhere farther from B are left out */
+  float moved;         /* both meshes' vertices together may be so far from where they are stored */
+  VkBool32 isSolid;    /* B bounds a solid: it winds `front` times round all that is in front of */
+  int32_t front;       /* its faces, and one time more or less round all other points off it */
+  VkBuffer kindBuffer; /* uint32_t[faces of B]: kFaceCovered and so on; usage STORAGE_BUFFER */
+  VkDeviceSize kindOffset;
+} VkhSurveySides;
+/* Finds the side of B on which cells lie that have none: their class. It stays when they are split.
+ * Statements hold wherever the vertices are. */
+VKH_API void vkhCmdFindSurveySides(VkhContext context, VkCommandBuffer commandBuffer,
+                                   const VkhProblem* problem, const VkhSurvey* survey,
+                                   const VkhSurveySides* sides);
+
+typedef struct VkhSurveyFaces {
+  uint32_t cells;          /* that there are */
+  uint32_t reachedClasses; /* a bit for each class of cells */
+  uint32_t highestClasses;
+  VkBuffer buffer; /* float[2 * faceCount]: some point of the face's cells is at least so far; then,
+                    * of each face, none is farther; 0: it has no such cell; usage TRANSFER_DST */
+  VkDeviceSize offset;
+} VkhSurveyFaces;
+VKH_API void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
+                                    const VkhProblem* problem, const VkhSurvey* survey,
+                                    const VkhSurveyFaces* faces);
+
 typedef struct VkhSurveyRead {
-  uint32_t cells;      /* that there are */
-  VkBuffer faceBuffer; /* float[2 * faceCount]: some point of the face is at least so far; then, of
-                        * each face, no point is farther; null: not wanted; usage TRANSFER_DST */
-  VkDeviceSize faceOffset;
-  VkBuffer cellBuffer; /* VkhCell[cells]; null: not wanted; usage TRANSFER_DST */
+  uint32_t first, count; /* of the cells */
+  VkBuffer cellBuffer;   /* VkhCell[count]; usage TRANSFER_DST, as the others */
   VkDeviceSize cellOffset;
-  VkBuffer boundsBuffer; /* VkhCellBounds[cells]; with cellBuffer */
+  VkBuffer boundsBuffer; /* VkhCellBounds[count] */
   VkDeviceSize boundsOffset;
+  VkBuffer classBuffer; /* uint32_t[count] */
+  VkDeviceSize classOffset;
 } VkhSurveyRead;
 VKH_API void vkhCmdReadSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                               const VkhProblem* problem, const VkhSurvey* survey,
                               const VkhSurveyRead* read);
+
+typedef struct VkhSurveyWrite {
+  uint32_t first, count; /* of the cells */
+  VkBuffer
+      boundsBuffer; /* VkhCellBounds[count], which the caller has narrowed; usage TRANSFER_SRC */
+  VkDeviceSize boundsOffset;
+} VkhSurveyWrite;
+VKH_API void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, const VkhSurvey* survey,
+                               const VkhSurveyWrite* write);
 
 /* Copies a survey of so many cells into memory with more room, which takes its place. */
 VKH_API void vkhCmdMoveSurvey(VkhContext context, VkCommandBuffer commandBuffer,

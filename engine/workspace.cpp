@@ -150,9 +150,10 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
 void list(Suballocator& take, SurveyStreams& s, uint32_t face_count, uint32_t capacity) {
   take(s.weights, face_count);
   take(s.faces_reached, face_count);
-  take(s.faces_highest, face_count);
+  take(s.faces_told, face_count);
   take(s.cells, capacity);
   take(s.bounds, capacity);
+  take(s.classes, capacity);
   take(s.keys, capacity);
   take(s.parents, survey_parents(capacity));
   take(s.blocks, capacity / gpu::kSurveyBlock + 1);

@@ -82,10 +82,11 @@ struct Workspace {
 // A survey's cells, and what the host's plan makes of them.
 struct SurveyStreams {
   Slice<gpu::Wide> weights;       // of each face of A
-  Slice<uint32_t> faces_reached;  // per face of A, floats as bits: some point is at least so far,
-  Slice<uint32_t> faces_highest;  // and none is farther
+  Slice<uint32_t> faces_reached;  // per face of A, floats as bits: some point is at least so far
+  Slice<uint32_t> faces_told;     // what the host asked of each
   Slice<gpu::Cell> cells;
   Slice<gpu::CellBounds> bounds;    // one per cell
+  Slice<uint32_t> classes;          // one per cell
   Slice<uint32_t> keys;             // one per cell: the bin of its score
   Slice<uint32_t> parents;          // the places of the cells that a wave has split
   Slice<gpu::SurveyCounts> blocks;  // one per kSurveyBlock cells

@@ -239,6 +239,20 @@ VKH_CONST uint kMeanUpper = kMeanLower + 1u;
 VKH_CONST uint kSquareLower = kMeanLower + 2u;
 VKH_CONST uint kSquareUpper = kMeanLower + 3u;
 VKH_CONST uint kSurveySums = kMeanLower + 4u;
+// The class of a survey's cell: the side of B on which it lies, or why it has none.
+VKH_CONST uint kClassUnseen = 0u;  // it was not looked at since it was made
+VKH_CONST uint kClassOver = 1u;    // in front of B's faces
+VKH_CONST uint kClassUnder = 2u;
+VKH_CONST uint kClassMeets = 3u;       // it meets B, or is nearer than its bounds tell
+VKH_CONST uint kClassEdge = 4u;        // faces that may be closest somewhere on it do not agree
+VKH_CONST uint kClassDegenerate = 5u;  // a segment or a point may be closest
+VKH_CONST uint kClassTwoSided = 6u;    // a face may be closest that lies on an opposite one
+VKH_CONST uint kClassMany = 7u;        // more faces may be closest than are looked at
+VKH_CONST uint kAllClasses = 0xffu;    // a set of classes has a bit for each
+// What a side has to know of a face of B.
+VKH_CONST uint kFaceCovered = 1u;   // a segment or a point of other faces
+VKH_CONST uint kFaceBare = 2u;      // a segment or a point that is of no other face
+VKH_CONST uint kFaceTwoSided = 4u;  // another face has the same corners in the opposite order
 // closest_faces: triangles of B that are examined for one point before boxes stand for the rest,
 // and how many of them to 48 bits.
 VKH_CONST uint kClosestTriangles = 1u << 16;
@@ -484,18 +498,25 @@ struct SurveyPlan {
   uint moments;        // 1: a tally adds up means and mean squares, too
   float of_whole;      // 1 over the weight of all faces
   float mean, square;  // what a width of the mean, and of the mean square, scores; 0: nothing
+  uint classes;        // of the cells that a tally counts
+  float far;           // the first of them that reaches it is wanted
+  // Cells of these classes have a mean that scores, and those of these may be on either side.
+  uint mean_classes, either_side;
   // A map scores a cell by its width over `map_step`, if it has more than `map_area` of the area
   // and is not all farther than `map_most`. 0: there is no map.
   float map_step, map_area, map_most;
   // A cell is in the way of its face where it has points that may be farther than `face_within`,
   // and by more than `face_tolerance` than what the face is known to reach, unless that is more
   // than `face_beyond`. 0: faces have no goal.
+  // `face_within` is of cells without a side, of those over B, and of those under it.
   uint faces;
-  float face_tolerance, face_within, face_beyond;
+  float face_tolerance, face_beyond;
+  float face_within[3];
   SurveyEdge most;                 // a distance beyond it counts as 0 in means and mean squares
   SurveyEdge edges[kSurveyEdges];  // of the tally
   SurveyEdge open[kSurveyOpen];    // area that is undecided there scores
-  float shares[kSurveyOpen];       // so much
+  float shares[kSurveyOpen];       // so much,
+  uint open_classes[kSurveyOpen];  // on cells of these classes
 };
 
 // The answer of a survey's cells: sums of weights, and of weighted values over the largest one.
@@ -503,6 +524,8 @@ struct SurveyTable {
   Wide sums[kSurveySums];
   uint highest;     // the largest distance from above, as bits
   uint not_lowest;  // the least one from below: the bits' complement
+  uint reached;     // some point of a cell that counts is so far: bits
+  uint not_far;     // the complement of the first cell that reaches SurveyPlan::far; 0: none does
 };
 
 // Cells of a block, or of those before it: those above a key, and those with the key.
@@ -670,6 +693,24 @@ struct SurveyPush {
   uint groups;      // of the dispatch
   int unit;         // distances are below 2^(unit - 127),
   int square_unit;  // and their squares below 2^(square_unit - 127)
+};
+
+// survey_sides
+struct SurveySidesPush {
+  uint first, end;      // the cells from the first one to the one before the end
+  uint face_count;      // of A
+  uint triangle_count;  // of B
+  float above;          // cells that are nowhere farther from B are left out
+  float moved;          // vertices may be so far from where they are stored, those of A and of B
+  uint is_solid;        // B winds `front` times round all points in front of it,
+  int front;            // and one time more or less round all others
+};
+
+// survey_faces
+struct SurveyFacesPush {
+  uint count;    // of cells
+  uint classes;  // of those that count
+  uint reached;  // 1: what their points reach is wanted, 0: what none exceeds
 };
 
 // survey_count, survey_scan, survey_list and survey_split

@@ -32,6 +32,14 @@ using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;
 using gpu::kBaryOne;
+using gpu::kClassDegenerate;
+using gpu::kClassEdge;
+using gpu::kClassOver;
+using gpu::kClassTwoSided;
+using gpu::kClassUnder;
+using gpu::kClassUnseen;
+using gpu::kFaceBare;
+using gpu::kFaceTwoSided;
 using gpu::kNone;
 using gpu::kThinQuality;
 

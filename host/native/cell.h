@@ -6,6 +6,7 @@
 #include "host/native/face_tree.h"
 #define float double
 #include "shaders/report/cell.h"
+#include "shaders/report/side.h"
 #undef float
 
 namespace vkh::native {
@@ -13,11 +14,12 @@ namespace vkh::native {
 /// No two points are so far apart, and its square is a float.
 inline constexpr double kFarthest = 1e15;
 
-/// Boxes at more than this distance, squared, hold nothing that is closest anywhere on T, whose
-/// exact points and centre are off by its slack. float_above() takes a half of 2^-23 of it, and so
-/// the doubles' roundings, and more than what underflows in the boxes' distances.
-inline float cell_reach(const Gathered& g, const CellFrame& t) {
-  const double far = min(g.highest + t.radius + t.slack, kFarthest);
+/// Boxes at more than this distance, squared, hold nothing that is closest anywhere on T, which is
+/// nowhere farther from B than `highest`. T's exact points and centre are off by its slack.
+/// float_above() takes a half of 2^-23 of it, and so the doubles' roundings, and more than what
+/// underflows in the boxes' distances.
+inline float cell_reach(double highest, const CellFrame& t) {
+  const double far = min(highest + t.radius + t.slack, kFarthest);
   return float_above(far * far);
 }
 

@@ -2,24 +2,11 @@
 
 #include "host/base/rounding.h"
 #include "host/mesh/round_to_float.h"
-#include "host/native/cell.h"
-#include "host/native/problem.h"
+#include "host/native/cell_view.h"
 #include "vkhausdorff/length.h"
 
 namespace vkh::native {
 namespace {
-
-/// A cell, and B around its centre.
-struct CellView {
-  const FaceTree& tree;
-  CellFrame cell;
-  View view;
-
-  Surface surface(uint32_t place) const {
-    const Corners& t = tree.triangle(place);
-    return make_surface(two(t.a), two(t.b), two(t.c), view);
-  }
-};
 
 uint32_t nearest_place(const CellView& v, uint32_t start) {
   Nearest from;
@@ -41,13 +28,13 @@ class Gathering {
   // All of them, or some, where boxes stand for the rest.
   void look_around() {
     Walk walk(v_.tree, v_.cell.origin.hi);
-    float reach = cell_reach(g_, v_.cell);
+    float reach = cell_reach(g_.highest, v_.cell);
     for (uint32_t looked_at = 0; looked_at < gpu::kCellTriangles;) {
       const Leaf leaf = walk.next(reach);
       if (leaf.is_none()) return;
       for (uint32_t i = leaf.begin; i < leaf.end; ++i) look_at(i);
       looked_at += leaf.end - leaf.begin;
-      reach = std::min(reach, cell_reach(g_, v_.cell));
+      reach = std::min(reach, cell_reach(g_.highest, v_.cell));
     }
     const auto least = static_cast<double>(walk.least_left(reach));
     g_ = without(g_, v_.cell, box_distance_down(v_.cell.slack, least));
@@ -132,12 +119,6 @@ gpu::CellBounds bounds_of(const Gathered& g, const CellView& v) {
           .triangle = g.triangle};
 }
 
-Root root_of(const Problem& problem, uint32_t face) {
-  const UVec3& f = problem.a.faces[face];
-  const std::vector<vec3>& at = problem.placed_a.at;
-  return make_root(two(at[f.x]), two(at[f.y]), two(at[f.z]));
-}
-
 }  // namespace
 
 PlacedPair::PlacedPair(const Mesh& a, const Mesh& b)
@@ -160,10 +141,7 @@ gpu::Vertex PlacedPair::vertex_of_a(uint32_t number) const {
 }
 
 gpu::CellBounds PlacedPair::bounds(const gpu::Cell& cell, Nearby& near) const {
-  const gpu::uvec4& w = cell.corners;
-  const CellFrame t =
-      make_cell(root_of(*problem_, cell.face), unpack_corners({w.x, w.y, w.z, w.w}));
-  const CellView view{.tree = problem_->tree, .cell = t, .view = cell_view(t)};
+  const CellView view(*problem_, cell);
   Gathering gathering = near.is_known() ? gather_near(view, near) : gather(view, cell.start);
   gathering.look_at_pairs();
   near = gathering.near();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "shaders/gpu_types.h"
 #include "vkhausdorff/frame.h"
@@ -44,6 +45,11 @@ class PlacedPair {
   /// Bounds a cell, in the frame. `triangle` and `start` are places in this pair's own order of B.
   /// `near`: what is known of the cell, and then what was found.
   gpu::CellBounds bounds(const gpu::Cell& cell, Nearby& near) const;
+  /// Finds the class of a cell with these bounds, as survey_sides.comp does. `face_kinds`: of B's
+  /// faces.
+  uint32_t side_class(const gpu::Cell& cell, const gpu::CellBounds& bounds,
+                      const gpu::SurveySidesPush& search,
+                      std::span<const uint32_t> face_kinds) const;
 
  private:
   std::unique_ptr<const Problem> problem_;

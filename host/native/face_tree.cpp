@@ -177,9 +177,7 @@ Leaf Walk::next(float reach2) {
       open(top.child, reach2);
       continue;
     }
-    const uint32_t begin = top.child & ((1u << FaceTree::kCountShift) - 1);
-    const uint32_t more = (top.child & ~FaceTree::kLeafFlag) >> FaceTree::kCountShift;
-    return {begin, begin + more + 1};
+    return FaceTree::leaf_of(top.child);
   }
   return {};
 }

@@ -62,6 +62,14 @@ class FaceTree {
   /// The nearest triangle, which may be that of `best`, where the search starts.
   Nearest nearest(const vec3& p, Nearest best) const;
 
+  struct Box {
+    std::array<float, 3> lo, hi;
+  };
+  /// Goes over the triangles in all boxes that `may_hold`, until `look` returns false of a place;
+  /// returns whether it never did.
+  template <class MayHold, class Look>
+  bool each_in(const MayHold& may_hold, const Look& look) const;
+
  private:
   friend class Walk;
   static constexpr uint32_t kWide = 4;
@@ -72,9 +80,6 @@ class FaceTree {
     std::array<std::array<float, kWide>, 3> lo, hi;
     std::array<uint32_t, kWide> child;
   };
-  struct Box {
-    std::array<float, 3> lo, hi;
-  };
   struct Item {
     Box box;
     std::array<float, 3> middle;
@@ -84,6 +89,16 @@ class FaceTree {
     uint32_t begin, end;
   };
 
+  /// Boxes of 2^28 triangles, halved twice a level, leave three of four behind.
+  static constexpr size_t kStack = 64;
+  static Box box_of(const Node& node, size_t lane) {
+    return {{node.lo[0][lane], node.lo[1][lane], node.lo[2][lane]},
+            {node.hi[0][lane], node.hi[1][lane], node.hi[2][lane]}};
+  }
+  static Leaf leaf_of(uint32_t child) {
+    const uint32_t begin = child & ((1u << kCountShift) - 1);
+    return {begin, begin + ((child & ~kLeafFlag) >> kCountShift) + 1};
+  }
   uint32_t build(std::vector<Item>& items, Range range);
   void set_child(std::vector<Item>& items, uint32_t node, uint32_t lane, Range range);
 
@@ -105,8 +120,6 @@ class Walk {
   float least_left(float reach2) const;
 
  private:
-  /// Boxes of 2^28 triangles, halved twice a level, leave three of four behind.
-  static constexpr size_t kStack = 64;
   struct Waiting {
     float distance2;
     uint32_t child;
@@ -115,8 +128,29 @@ class Walk {
 
   const FaceTree& tree_;
   const FloatPoint point_;
-  std::array<Waiting, kStack> waiting_;
+  std::array<Waiting, FaceTree::kStack> waiting_;
   size_t count_ = 0;
 };
+
+template <class MayHold, class Look>
+bool FaceTree::each_in(const MayHold& may_hold, const Look& look) const {
+  std::array<uint32_t, kStack> waiting;
+  size_t left = 0;
+  waiting[left++] = 0;
+  while (left > 0) {
+    const uint32_t at = waiting[--left];
+    if ((at & kLeafFlag) != 0) {
+      const Leaf leaf = leaf_of(at);
+      for (uint32_t i = leaf.begin; i < leaf.end; ++i) {
+        if (!look(i)) return false;
+      }
+      continue;
+    }
+    for (size_t lane = 0; lane < kWide; ++lane) {
+      if (may_hold(box_of(nodes_[at], lane))) waiting[left++] = nodes_[at].child[lane];
+    }
+  }
+  return true;
+}
 
 }  // namespace vkh::native

@@ -60,6 +60,24 @@ struct CellRange {
   uint32_t first = 0, count = 0;
 };
 
+/// What has to be known of B to find the sides of cells.
+struct SideSearch {
+  /// Of B's faces: gpu::kFaceCovered and so on.
+  std::span<const uint32_t> face_kinds;
+  /// B bounds a solid: it winds `front` times round all that is in front of its faces, and one time
+  /// more or less round all other points off it.
+  bool is_solid = false;
+  int front = 0;
+  float moved = 0;  ///< so far may both meshes' vertices together be from where they are stored
+};
+
+/// Cells, one entry each.
+struct CellsRead {
+  std::vector<gpu::Cell> cells;
+  std::vector<gpu::CellBounds> bounds;
+  std::vector<uint32_t> classes;
+};
+
 /// A survey's cells, which stay on the device: they tile A, each with its bounds. Calls block until
 /// the device has done what they ask for, but for those that say otherwise.
 class SurveyCells {
@@ -83,11 +101,16 @@ class SurveyCells {
   /// Adds up some cells at the plan's edges. Every distance is below 2^(unit - 127).
   virtual const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit,
                                         const CellRange& some) = 0;
-  /// Returns, of each face of A, a distance that some point reaches, and then, of each, one that
-  /// none exceeds.
-  virtual std::vector<float> faces() = 0;
-  /// Reads all cells and their bounds.
-  virtual void read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) = 0;
+  /// Finds the sides of some cells that have none yet and are farther than `above` somewhere, in
+  /// the frame. Parts of a cell have its side.
+  virtual void find_sides(const SideSearch& search, float above, const CellRange& some) = 0;
+  /// Returns, of each face of A, a distance that some point of its cells of the one set of classes
+  /// reaches, and then, of each, one that none of the other set exceeds; 0 if it has none.
+  virtual std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes) = 0;
+  /// Reads some cells.
+  virtual CellsRead read(const CellRange& some) = 0;
+  /// Takes over bounds that the caller has narrowed.
+  virtual void write(const CellRange& some, std::span<const gpu::CellBounds> bounds) = 0;
 };
 
 /// Bounds cells of A; blocks until it is done.

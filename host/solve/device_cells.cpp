@@ -14,6 +14,7 @@ constexpr VkBufferUsageFlags kOfCells = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 constexpr BufferUse kWritten{VK_BUFFER_USAGE_TRANSFER_SRC_BIT, Placement::kUpload};
+constexpr BufferUse kBound{VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, Placement::kUpload};
 constexpr BufferUse kRead{VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback};
 
 // Few surveys need more than a few cells a face, and a small one should not allocate twice.
@@ -141,37 +142,79 @@ const gpu::SurveyTable& DeviceCells::tally(const gpu::SurveyPlan& plan, int unit
   return *reinterpret_cast<const gpu::SurveyTable*>(buffers_.table.mapped());
 }
 
-std::vector<float> DeviceCells::faces() {
+void DeviceCells::find_sides(const SideSearch& search, float above, const CellRange& some) {
+  grow(buffers_.face_kinds, device_, search.face_kinds.size_bytes(), kBound);
+  std::memcpy(buffers_.face_kinds.mapped(), search.face_kinds.data(),
+              search.face_kinds.size_bytes());
+  waiting_.push_back([this, search, above, some](VkCommandBuffer commands) {
+    const VkhSurvey survey = view();
+    const VkhSurveySides sides{some.first,
+                               some.count,
+                               above,
+                               search.moved,
+                               search.is_solid ? VK_TRUE : VK_FALSE,
+                               search.front,
+                               buffers_.face_kinds.handle(),
+                               0};
+    vkhCmdFindSurveySides(context_, commands, &problem_, &survey, &sides);
+  });
+  submit();
+}
+
+std::vector<float> DeviceCells::faces(uint32_t reached_classes, uint32_t highest_classes) {
   std::vector<float> faces(2 * size_t{problem_.a.faceCount});
   grow(buffers_.faces, device_, faces.size() * sizeof(float), kRead);
-  waiting_.push_back([this](VkCommandBuffer commands) {
+  waiting_.push_back([&](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
-    VkhSurveyRead read{};
-    read.cells = count_;
-    read.faceBuffer = buffers_.faces.handle();
-    vkhCmdReadSurvey(context_, commands, &problem_, &survey, &read);
+    const VkhSurveyFaces asked{count_, reached_classes, highest_classes, buffers_.faces.handle(),
+                               0};
+    vkhCmdWriteSurveyFaces(context_, commands, &problem_, &survey, &asked);
   });
   submit();
   std::memcpy(faces.data(), buffers_.faces.mapped(), faces.size() * sizeof(float));
   return faces;
 }
 
-void DeviceCells::read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) {
-  cells.resize(count_);
-  bounds.resize(count_);
-  grow(buffers_.cells, device_, cells.size() * sizeof(cells[0]), kRead);
-  grow(buffers_.bounds, device_, bounds.size() * sizeof(bounds[0]), kRead);
-  waiting_.push_back([this](VkCommandBuffer commands) {
+void DeviceCells::write(const CellRange& some, std::span<const gpu::CellBounds> bounds) {
+  grow(buffers_.known, device_, bounds.size_bytes(), kWritten);
+  std::memcpy(buffers_.known.mapped(), bounds.data(), bounds.size_bytes());
+  waiting_.push_back([this, some](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
-    VkhSurveyRead read{};
-    read.cells = count_;
-    read.cellBuffer = buffers_.cells.handle();
-    read.boundsBuffer = buffers_.bounds.handle();
+    const VkhSurveyWrite write{some.first, some.count, buffers_.known.handle(), 0};
+    vkhCmdWriteSurvey(context_, commands, &problem_, &survey, &write);
+  });
+  submit();
+}
+
+CellsRead DeviceCells::read(const CellRange& some) {
+  CellsRead all;
+  const auto make_room = [&](auto& values, Buffer& buffer) {
+    values.resize(some.count);
+    grow(buffer, device_, values.size() * sizeof(values[0]), kRead);
+  };
+  make_room(all.cells, buffers_.cells);
+  make_room(all.bounds, buffers_.bounds);
+  make_room(all.classes, buffers_.classes);
+  waiting_.push_back([&](VkCommandBuffer commands) {
+    const VkhSurvey survey = view();
+    const VkhSurveyRead read{some.first,
+                             some.count,
+                             buffers_.cells.handle(),
+                             0,
+                             buffers_.bounds.handle(),
+                             0,
+                             buffers_.classes.handle(),
+                             0};
     vkhCmdReadSurvey(context_, commands, &problem_, &survey, &read);
   });
   submit();
-  copy_together(cells.data(), buffers_.cells.mapped(), cells.size() * sizeof(cells[0]));
-  copy_together(bounds.data(), buffers_.bounds.mapped(), bounds.size() * sizeof(bounds[0]));
+  const auto copy = [](auto& values, const Buffer& buffer) {
+    copy_together(values.data(), buffer.mapped(), values.size() * sizeof(values[0]));
+  };
+  copy(all.cells, buffers_.cells);
+  copy(all.bounds, buffers_.bounds);
+  copy(all.classes, buffers_.classes);
+  return all;
 }
 
 }  // namespace vkh

@@ -15,7 +15,8 @@ struct SurveyBuffers {
   Buffer memory;                   // the device's own
   Buffer weights, plan;            // written by the host
   Buffer histogram, table, faces;  // read by it,
-  Buffer cells, bounds;            // and these if it takes over
+  Buffer cells, bounds, classes;   // and these if it takes over
+  Buffer face_kinds, known;        // of B, and bounds that it found: written by it
 };
 
 class DeviceCells : public SurveyCells {
@@ -36,8 +37,10 @@ class DeviceCells : public SurveyCells {
   void bound(size_t first, size_t count, bool wait) override;
   const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit,
                                 const CellRange& some) override;
-  std::vector<float> faces() override;
-  void read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) override;
+  void find_sides(const SideSearch& search, float above, const CellRange& some) override;
+  std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes) override;
+  CellsRead read(const CellRange& some) override;
+  void write(const CellRange& some, std::span<const gpu::CellBounds> bounds) override;
 
  private:
   VkhSurvey view() const {

@@ -34,15 +34,20 @@ gpu::Wide wide_of(uint64_t x) {
 uint64_t whole_of(const glm::uvec2& x) { return uint64_t{x.y} << 32 | x.x; }
 
 // As survey_score.comp has it.
-float score_of(const gpu::CellBounds& bounds, const gpu::SurveyPlan& plan) {
+float score_of(const gpu::CellBounds& bounds, uint32_t of_class, const gpu::SurveyPlan& plan) {
   if (!(plan.mean > 0 || plan.square > 0 || plan.open_count > 0)) return 0;
   const lib::TallyBounds b = lib::tally_bounds(bounds);
   const lib::TallyBounds kept = lib::within_most(b, plan.most);
   float score = 0;
-  if (plan.mean > 0) score += plan.mean * lib::mean_width(kept);
+  if (plan.mean > 0 && lib::is_among(of_class, plan.mean_classes)) {
+    const bool is_either = lib::is_among(of_class, plan.either_side);
+    score += plan.mean * (is_either ? lib::either_width(kept) : lib::mean_width(kept));
+  }
   if (plan.square > 0) score += plan.square * lib::square_width(kept);
-  for (uint32_t i = 0; i < plan.open_count; ++i)
-    score += plan.shares[i] * lib::undecided_share(b, plan.open[i]);
+  for (uint32_t i = 0; i < plan.open_count; ++i) {
+    if (lib::is_among(of_class, plan.open_classes[i]))
+      score += plan.shares[i] * lib::undecided_share(b, plan.open[i]);
+  }
   return score;
 }
 
@@ -52,13 +57,16 @@ class Sums {
   Sums(const gpu::SurveyPlan& plan, int unit)
       : plan_(plan), edges_(plan.edges, plan.edge_count), unit_(unit) {}
 
-  void add(const gpu::Cell& cell, const gpu::CellBounds& bounds, const gpu::Wide& of_face) {
+  void add(uint32_t place, const gpu::Cell& cell, const gpu::CellBounds& bounds,
+           const gpu::Wide& of_face) {
     const lib::CellWeight w =
         lib::cell_weight({of_face.low, of_face.high}, lib::halvings_of(corners_of(cell)));
     Bounded b{bounds};
     if (plan_.moments != 0) add_moments(lib::within_most(b.all(), plan_.most), w);
     highest_ = std::max(highest_, lib::bits_of(bounds.highest));
     not_lowest_ = std::max(not_lowest_, ~lib::bits_of(lib::lowest_of(bounds)));
+    reached_ = std::max(reached_, lib::bits_of(bounds.reached));
+    if (bounds.reached >= plan_.far) not_far_ = std::max(not_far_, ~place);
     add_surely_within(b, w);
     add_perhaps_within(b, w);
   }
@@ -67,12 +75,16 @@ class Sums {
     for (size_t i = 0; i < sums_.size(); ++i) sums_[i] += others.sums_[i];
     highest_ = std::max(highest_, others.highest_);
     not_lowest_ = std::max(not_lowest_, others.not_lowest_);
+    reached_ = std::max(reached_, others.reached_);
+    not_far_ = std::max(not_far_, others.not_far_);
   }
 
   void put(gpu::SurveyTable& table) const {
     for (size_t i = 0; i < sums_.size(); ++i) table.sums[i] = wide_of(sums_[i]);
     table.highest = highest_;
     table.not_lowest = not_lowest_;
+    table.reached = reached_;
+    table.not_far = not_far_;
   }
 
  private:
@@ -130,7 +142,7 @@ class Sums {
   const std::span<const gpu::SurveyEdge> edges_;
   const int unit_;
   std::array<uint64_t, gpu::kSurveySums> sums_{};
-  uint32_t highest_ = 0, not_lowest_ = 0;
+  uint32_t highest_ = 0, not_lowest_ = 0, reached_ = 0, not_far_ = 0;
 };
 
 }  // namespace
@@ -146,6 +158,7 @@ void NativeCells::begin(std::span<const uint64_t> weights, float farthest) {
   reached_.assign(faces, 0.0f);
   bounds_.assign(faces, unknown_bounds(farthest));
   near_.assign(faces, {});
+  classes_.assign(faces, gpu::kClassUnseen);
   gpu::Cell whole{};
   set_corners(whole, lib::whole_root());
   whole.start = gpu::kNone;
@@ -159,13 +172,14 @@ void NativeCells::begin(std::span<const uint64_t> weights, float farthest) {
 uint32_t NativeCells::score_one(const gpu::SurveyPlan& plan, uint32_t place, bool& is_stuck) const {
   const gpu::Cell& cell = cells_[place];
   const gpu::CellBounds& b = bounds_[place];
-  const float of_face = plan.faces == 0
-                            ? 0
-                            : lib::face_score(b.highest, reached_[cell.face], plan.face_tolerance,
-                                              plan.face_within, plan.face_beyond);
+  const float of_face =
+      plan.faces == 0
+          ? 0
+          : lib::face_score(b.highest, reached_[cell.face], plan.face_tolerance,
+                            plan.face_within[lib::side_index(classes_[place])], plan.face_beyond);
   is_stuck = of_face > 0;
   if (b.highest - lib::lowest_of(b) <= lib::kScoreFloor) return 0;
-  float score = score_of(b, plan);
+  float score = score_of(b, classes_[place], plan);
   const float of_map = lib::map_score(b, plan.map_step, plan.map_most);
   if (!(score > 0) && !(of_map > 0) && !(of_face > 0)) return 0;
   const lib::Bary3 at = corners_of(cell);
@@ -211,10 +225,12 @@ bool NativeCells::split(const SurveyChoice& choice) {
     list_chosen(choice);
     bounds_.resize(after);
     near_.resize(after);
+    classes_.resize(after);
     cells_.resize(after);
   } catch (const std::bad_alloc&) {
     bounds_.resize(before);
     near_.resize(before);
+    classes_.resize(before);
     return false;
   }
   parts_ = choice.parts;
@@ -245,6 +261,7 @@ void NativeCells::split_one(uint32_t rank) {
   const lib::Bary6 points = lib::split_points(at, code);
   const gpu::CellBounds known = lib::bounds_of_parts(bounds_[parents_[rank]]);
   const native::Nearby near = near_[parents_[rank]];
+  const uint32_t of_class = lib::class_of_parts(classes_[parents_[rank]]);
   for (uint32_t k = 0; k < parts_; ++k) {
     const glm::uvec3 part = parts_ == 2 ? lib::half_points(code, k) : lib::child_points(code, k);
     const uint32_t to = place_of(size_t{rank} * parts_ + k);
@@ -252,6 +269,7 @@ void NativeCells::split_one(uint32_t rank) {
     cells_[to] = cell;
     bounds_[to] = known;
     near_[to] = near;
+    classes_[to] = of_class;
   }
 }
 
@@ -294,7 +312,10 @@ const gpu::SurveyTable& NativeCells::tally(const gpu::SurveyPlan& plan, int unit
   std::mutex adding;
   in_pieces(some_cells, kCellsOfPiece, threads_, [&](size_t begin, size_t end) {
     Sums some(plan, unit);
-    for (size_t i = begin; i < end; ++i) some.add(cells_[i], bounds_[i], weights_[cells_[i].face]);
+    for (size_t i = begin; i < end; ++i) {
+      if (lib::is_among(classes_[i], plan.classes))
+        some.add(static_cast<uint32_t>(i), cells_[i], bounds_[i], weights_[cells_[i].face]);
+    }
     const std::lock_guard lock(adding);
     all.add(some);
   });
@@ -302,19 +323,53 @@ const gpu::SurveyTable& NativeCells::tally(const gpu::SurveyPlan& plan, int unit
   return table_;
 }
 
-std::vector<float> NativeCells::faces() {
-  std::vector<float> faces = reached_;
-  faces.resize(2 * reached_.size(), 0.0f);
+void NativeCells::find_sides(const SideSearch& search, float above, const CellRange& some) {
+  const gpu::SurveySidesPush asked{.first = some.first,
+                                   .end = some.first + some.count,
+                                   .face_count = 0,
+                                   .triangle_count = 0,
+                                   .above = above,
+                                   .moved = search.moved,
+                                   .is_solid = search.is_solid ? 1u : 0u,
+                                   .front = search.front};
+  in_pieces(some, kBoundedOfPiece, threads_, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      if (classes_[i] != gpu::kClassUnseen || !(bounds_[i].highest > above)) continue;
+      classes_[i] = pair_.side_class(cells_[i], bounds_[i], asked, search.face_kinds);
+    }
+  });
+}
+
+std::vector<float> NativeCells::faces(uint32_t reached_classes, uint32_t highest_classes) {
+  const size_t count_of_faces = reached_.size();
+  std::vector<float> faces(2 * count_of_faces, 0.0f);
+  if (reached_classes == gpu::kAllClasses)
+    std::copy(reached_.begin(), reached_.end(), faces.begin());
   for (size_t i = 0; i < count(); ++i) {
-    float& highest = faces[reached_.size() + cells_[i].face];
-    highest = std::max(highest, bounds_[i].highest);
+    float& reached = faces[cells_[i].face];
+    float& highest = faces[count_of_faces + cells_[i].face];
+    if (lib::is_among(classes_[i], reached_classes))
+      reached = std::max(reached, bounds_[i].reached);
+    if (lib::is_among(classes_[i], highest_classes))
+      highest = std::max(highest, bounds_[i].highest);
   }
   return faces;
 }
 
-void NativeCells::read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) {
-  cells = cells_;
-  bounds = bounds_;
+void NativeCells::write(const CellRange& some, std::span<const gpu::CellBounds> bounds) {
+  std::copy(bounds.begin(), bounds.end(), bounds_.begin() + some.first);
+  for (uint32_t i = some.first; i < some.first + some.count; ++i) {
+    float& of_face = reached_[cells_[i].face];
+    of_face = std::max(of_face, bounds_[i].reached);
+  }
+}
+
+CellsRead NativeCells::read(const CellRange& some) {
+  const auto part = [&]<class T>(const std::vector<T>& of) {
+    const auto first = of.begin() + some.first;
+    return std::vector<T>(first, first + some.count);
+  };
+  return {part(cells_), part(bounds_), part(classes_)};
 }
 
 }  // namespace vkh

@@ -18,8 +18,8 @@ class NativeCells : public SurveyCells {
   NativeCells(const native::PlacedPair& pair, const Mesh& a, size_t threads, size_t most);
 
   /// The memory that a cell takes, while a vector of them grows.
-  static constexpr size_t kBytesOfCell =
-      2 * (sizeof(gpu::Cell) + sizeof(gpu::CellBounds) + sizeof(native::Nearby) + sizeof(uint32_t));
+  static constexpr size_t kBytesOfCell = 2 * (sizeof(gpu::Cell) + sizeof(gpu::CellBounds) +
+                                              sizeof(native::Nearby) + 2 * sizeof(uint32_t));
 
   void begin(std::span<const uint64_t> weights, float farthest) override;
   size_t count() const override { return cells_.size(); }
@@ -29,8 +29,10 @@ class NativeCells : public SurveyCells {
   void bound(size_t first, size_t count, bool wait) override;
   const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit,
                                 const CellRange& some) override;
-  std::vector<float> faces() override;
-  void read(std::vector<gpu::Cell>& cells, std::vector<gpu::CellBounds>& bounds) override;
+  void find_sides(const SideSearch& search, float above, const CellRange& some) override;
+  std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes) override;
+  CellsRead read(const CellRange& some) override;
+  void write(const CellRange& some, std::span<const gpu::CellBounds> bounds) override;
 
   /// Bounds cells that are none of the survey's.
   void bound(const CellBatch& batch) const;
@@ -49,6 +51,7 @@ class NativeCells : public SurveyCells {
   std::vector<gpu::Cell> cells_;
   std::vector<gpu::CellBounds> bounds_;
   std::vector<native::Nearby> near_;
+  std::vector<uint32_t> classes_;
   std::vector<uint32_t> keys_;     // bins of scores
   std::vector<uint32_t> parents_;  // that were split last
   std::vector<uint32_t> counts_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "host/survey/kept.h"
+#include "host/survey/lengths.h"
 
 namespace vkh {
 namespace {
@@ -104,19 +105,6 @@ std::vector<Percentile> percentiles_of(AreaDistances& distances, const FiguresAs
 }
 
 }  // namespace
-
-Tallied StoredDistances::tally(const Tally& asked) {
-  Tallied all;
-  all.shares = shares_within(store_, areas_, asked.at);
-  if (asked.moments) all.moments = moments_of(store_, areas_, *asked.moments);
-  all.highest = highest();
-  return all;
-}
-
-double StoredDistances::highest() {
-  const std::vector<float> highest = store_.highest_of_faces();
-  return static_cast<double>(*std::max_element(highest.begin(), highest.end()));
-}
 
 bool has_only_shares(const SurveyOptions& options) {
   const bool has_lengths =

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "host/survey/figures_asked.h"
-#include "host/survey/goals.h"
 #include "host/survey/statistics.h"
 
 namespace vkh {
@@ -16,6 +15,8 @@ namespace vkh {
 struct Tally {
   std::span<const Threshold> at;
   std::optional<Threshold> moments = {};
+  uint32_t classes = gpu::kAllClasses;  ///< of the cells that count
+  float far = 3e38f;                    ///< the first cell that reaches it is wanted
 };
 
 /// Tells what cells prove of the distances over A, in the frame.
@@ -27,22 +28,6 @@ class AreaDistances {
   virtual std::vector<Enclosure> percentiles(const PercentileSearch& search) = 0;
   virtual double reached() = 0;  ///< some point is so far,
   virtual double highest() = 0;  ///< and none is farther
-};
-
-/// Takes them from cells that the host holds. Both outlive it.
-class StoredDistances : public AreaDistances {
- public:
-  StoredDistances(const CellStore& store, const Areas& areas) : store_(store), areas_(areas) {}
-  Tallied tally(const Tally& asked) override;
-  std::vector<Enclosure> percentiles(const PercentileSearch& search) override {
-    return vkh::percentiles(store_, areas_, search);
-  }
-  double reached() override { return static_cast<double>(store_.reached()); }
-  double highest() override;
-
- private:
-  const CellStore& store_;
-  const Areas& areas_;
 };
 
 /// Whether shares within bands are all that a survey has goals for, and all that it draws: other

@@ -84,6 +84,8 @@ gpu::SurveyPlan plan_of(const TallyEdges& at, const std::optional<Threshold>& mo
   gpu::SurveyPlan plan{};
   plan.edge_count = static_cast<uint32_t>(at.edges.size());
   std::copy(at.edges.begin(), at.edges.end(), std::begin(plan.edges));
+  plan.classes = gpu::kAllClasses;
+  plan.far = 3e38f;
   plan.moments = moments ? 1 : 0;
   if (moments) plan.most = edge_of(*moments);
   return plan;
@@ -96,6 +98,8 @@ void add_table(const gpu::SurveyTable& table, gpu::SurveyTable& sum) {
   }
   sum.highest = std::max(sum.highest, table.highest);
   sum.not_lowest = std::max(sum.not_lowest, table.not_lowest);
+  sum.reached = std::max(sum.reached, table.reached);
+  sum.not_far = std::max(sum.not_far, table.not_far);
 }
 
 // A square that is rounded up has 2^-60 added (round_up in certified.h), and must be below the
@@ -118,21 +122,29 @@ double AreaTable::highest() const {
   return static_cast<double>(std::bit_cast<float>(table_.highest));
 }
 
-// Shares of all and of nothing are exact.
-Enclosure AreaTable::share(const TallyEdges::Places& at) const {
+// Shares of all and of nothing are exact: of all, where all cells count.
+Enclosure AreaTable::share(const TallyEdges::Places& at, bool are_all) const {
   const auto& [of_face, whole, error] = weights_;
   const double least = kLess * surely_[at.down] - error, most = kMore * perhaps_[at.up] + error;
   Enclosure e{std::clamp(kLess * (least / (whole + error)), 0.0, 1.0),
               std::clamp(kMore * (most / (whole - error)), 0.0, 1.0)};
-  if (static_cast<double>(at_.edges[at.down].down) >= highest()) e.lower = 1;
+  if (are_all && static_cast<double>(at_.edges[at.down].down) >= highest()) e.lower = 1;
   if (static_cast<double>(at_.edges[at.up].up) < lowest()) e.upper = 0;
   return e;
 }
 
-std::vector<Enclosure> AreaTable::shares() const {
-  std::vector<Enclosure> all;
-  for (const TallyEdges::Places& at : at_.of) all.push_back(share(at));
-  return all;
+// A cell that counts leaves the complement of its lowest, which is no NaN.
+void AreaTable::tell(const Tally& asked, Tallied& all) const {
+  all.is_empty = table_.not_lowest == 0;
+  const bool are_all = asked.classes == gpu::kAllClasses;
+  for (const TallyEdges::Places& at : at_.of)
+    all.shares.push_back(all.is_empty ? Enclosure{} : share(at, are_all));
+  if (asked.moments) all.moments = moments(*asked.moments);
+  if (all.is_empty) return;
+  all.lowest = lowest();
+  all.highest = highest();
+  all.reached = std::bit_cast<float>(table_.reached);
+  if (table_.not_far != 0) all.far = ~table_.not_far;
 }
 
 // A mean in the sum's unit of values up to `largest`, which the areas' error weighs at most.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/solve/cells.h"
+#include "host/survey/area_figures.h"
 #include "host/survey/statistics.h"
 
 namespace vkh {
@@ -50,15 +51,15 @@ class AreaTable {
   AreaTable(const gpu::SurveyTable& table, const TallyEdges& at, const AreaWeights& weights,
             int unit);
 
-  /// The share of A's area within each threshold.
-  std::vector<Enclosure> shares() const;
-  /// The tally's moments: a distance beyond `most` counted as 0.
-  Moments moments(const Threshold& most) const;
-  double lowest() const;   ///< no distance is less,
-  double highest() const;  ///< and none is more
+  /// Adds what the table answers, of cells of some classes: shares of A's area to those before, all
+  /// else in place of what was there.
+  void tell(const Tally& asked, Tallied& all) const;
 
  private:
-  Enclosure share(const TallyEdges::Places& at) const;
+  double lowest() const;   // no distance is less,
+  double highest() const;  // and none is more
+  Enclosure share(const TallyEdges::Places& at, bool are_all) const;
+  Moments moments(const Threshold& most) const;
   double mean_down(uint32_t sum, double largest) const;
   double mean_up(uint32_t sum, double largest) const;
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "host/base/rounding.h"
-#include "host/survey/goals.h"
+#include "host/survey/lengths.h"
 
 namespace vkh {
 

@@ -1,11 +1,14 @@
 #include "host/survey/face_goals.h"
 
+#include <algorithm>
+#include <iterator>
+
 #include "host/survey/area_table.h"
 
 namespace vkh {
 namespace {
 
-constexpr float kAnyDistance = 3e38f;
+constexpr float kAnyFloat = 3e38f;
 
 }  // namespace
 
@@ -20,10 +23,12 @@ double FaceGoals::tolerance() const {
 gpu::SurveyPlan FaceGoals::plan(double /*whole*/) const {
   gpu::SurveyPlan plan{};
   plan.faces = 1;
-  plan.face_within = plan.face_tolerance = -kAnyDistance;
-  plan.face_beyond = kAnyDistance;
+  plan.face_tolerance = -kAnyFloat;
+  std::fill(std::begin(plan.face_within), std::end(plan.face_within), -kAnyFloat);
+  plan.face_beyond = kAnyFloat;
   if (is_by_verdict_) {
-    plan.face_within = edge_of(asked_.threshold(asked_.options.limit.within)).down;
+    std::fill(std::begin(plan.face_within), std::end(plan.face_within),
+              edge_of(asked_.threshold(asked_.options.limit.within)).down);
     plan.face_beyond = edge_of(asked_.threshold(asked_.options.limit.beyond)).up;
   } else {
     plan.face_tolerance = static_cast<float>(tolerance());

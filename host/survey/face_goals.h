@@ -26,7 +26,7 @@ class FaceGoals : public WaveGoals {
     return is_stuck ? SurveyEnd::kBits : SurveyEnd::kMet;
   }
   gpu::SurveyPlan plan(double whole) const override;
-  double part() const override { return Scores::kNearlyAll; }
+  double part() const override { return kNearlyAll; }
 
  private:
   double tolerance() const;

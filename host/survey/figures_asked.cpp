@@ -1,6 +1,6 @@
 #include "host/survey/figures_asked.h"
 
-#include "host/survey/goals.h"
+#include "host/survey/lengths.h"
 #include "vkhausdorff/metrics.h"
 
 namespace vkh {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,9 +15,12 @@ namespace vkh {
 
 /// The answer of a tally at the thresholds that it was asked, in the frame.
 struct Tallied {
-  std::vector<Enclosure> shares;   ///< of A's area within each
-  Moments moments;                 ///< if they were asked for
-  double lowest = 0, highest = 0;  ///< no distance is less, or more
+  std::vector<Enclosure> shares;     ///< of A's area within each
+  Moments moments;                   ///< if they were asked for
+  double lowest = 0, highest = 0;    ///< no distance is less, or more
+  float reached = 0;                 ///< some point of a cell that counts is so far
+  bool is_empty = false;             ///< no cell counts
+  std::optional<uint32_t> far = {};  ///< the first cell that reaches what was asked
 };
 
 struct FiguresAsked {

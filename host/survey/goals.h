@@ -1,4 +1,4 @@
-// The goals of a survey: which cells are in the way of what was asked, and how much.
+// Goals of cells that the host holds: which cells are in the way of what was asked, and how much.
 #pragma once
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "host/base/parallel.h"
 #include "host/survey/cell_store.h"
 #include "host/survey/statistics.h"
+#include "host/survey/wave_goals.h"
 #include "vkhausdorff/survey.h"
 
 namespace vkh {
@@ -26,16 +27,9 @@ struct Scored {
 struct Scores {
   std::vector<Scored> cells;
   bool is_met = false;
-  /// So much of the scores is split in one pass, the largest first: nine tenths, since a few cells
-  /// that are wide often matter more than all others together.
-  static constexpr double kNearlyAll = 0.9;
+  /// So much of the scores is split in one pass, the largest first.
   double part = kNearlyAll;
 };
-/// The part of the scores to split where a figure is to be so narrow: halves have together about
-/// half of the width of a cell, so that twice what is too much is enough.
-inline double part_to_split(double width, double enough) {
-  return std::clamp(2 * (width - enough) / width, 0.05, Scores::kNearlyAll);
-}
 using Goal = std::function<Scores(const CellStore&)>;
 
 /// Scores all cells that can be split. `score` of a cell returns nothing if the cell is not in the
@@ -64,26 +58,5 @@ Scores scored(const CellStore& store, const Score& score) {
   }
   return all;
 }
-
-/// Scores a cell by its undecided area, added up over some distances.
-Scores score_undecided(const CellStore& store, const Areas& areas,
-                       const std::vector<Threshold>& distances);
-
-/// Converts lengths in the frame, on the stored meshes, to the files' units.
-Enclosure in_files(const SurveyedPair& pair, const Enclosure& lengths);
-
-/// The width in the frame that is enough for any figure: a millionth of A's diagonal, or what
-/// floats leave.
-double least_width(const SurveyedPair& pair);
-
-/// The goals of points of A, each of which is measured where a figure needs it. Those of a surface
-/// are sought by waves: wave_survey.h.
-std::vector<Goal> goals_of(const SurveyOptions& options, const SurveyedPair& pair);
-
-/// The surface that figures are of.
-struct SurveyedArea {
-  const CellStore& store;
-  const Areas& areas;
-};
 
 }  // namespace vkh

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "host/survey/lengths.h"
 #include "vkhausdorff/length.h"
 
 namespace vkh {

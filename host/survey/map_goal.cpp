@@ -183,9 +183,9 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair,
   return map;
 }
 
-void add_sides(std::span<const CellSide> sides, CellMap& map) {
+void add_sides(std::span<const uint32_t> classes, CellMap& map) {
   map.has_sides = true;
-  for (size_t i = 0; i < map.cells.size(); ++i) map.cells[i].side = sides[i].side;
+  for (size_t i = 0; i < map.cells.size(); ++i) map.cells[i].side = side_of_class(classes[i]).side;
 }
 
 bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair) {
@@ -196,19 +196,10 @@ bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair
          !b.are_points && Shells::edges_of(b).open == 0;
 }
 
-void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const GoesOn& goes_on,
-                     CellMap& map) {
-  const Sides sides(pair, goes_on);
-  if (!sides.is_shared()) return;
-  // Nearer cells have the colour of nought. Where all cells are nearer, the worst places still get
-  // sides.
+// Where all cells are nearer, the worst places still get sides.
+double near_nought(const SurveyedPair& pair, const CellMap& map, double reached) {
   constexpr double kOfLargest = 0.5;
-  const double above = std::min(CellMap::kUnresolved * map.bar / map.unit,
-                                kOfLargest * static_cast<double>(cells.reached()));
-  KnownSides known;
-  if (!sides.find(cells, above, known)) return;
-  add_sides(known.of(cells), map);
-  map.inside_out = sides.shells().inside_out();
+  return std::min(pair.frame.to_frame(CellMap::kUnresolved * map.bar), kOfLargest * reached);
 }
 
 // A width is rounded to a float twice, by a share of 2^-23 at most. The sums, the products and

@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "host/survey/goals.h"
-#include "host/survey/stoppable.h"
+#include "host/survey/cell_store.h"
+#include "host/survey/lengths.h"
 #include "host/survey/wave_goals.h"
 
 namespace vkh {
@@ -50,17 +50,21 @@ class MapGoals : public WaveGoals {
   bool is_nearly_met_ = false;
 };
 
+/// The surface that a map is of.
+struct SurveyedArea {
+  const CellStore& store;
+  const Areas& areas;
+};
 /// The map of all cells, which `options` ask for. A has an area, or is points.
 CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const SurveyOptions& options);
-/// Adds the sides of the survey's cells, in their order, to a map of all of them.
-void add_sides(std::span<const CellSide> sides, CellMap& map);
+/// Adds the sides of the survey's cells, by their classes, to a map of all of them.
+void add_sides(std::span<const uint32_t> classes, CellMap& map);
 
 /// Whether MapOptions::sides_if_cheap asks for sides of this B: it is small, has no open edge, and
 /// neither mesh stands for any triangulation of its polygons.
 bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair);
-/// Adds sides to a map of all cells, where B has an inside that is proven and `goes_on` does not
-/// end the search. Cells that are so near that they look like nought have none.
-void add_cheap_sides(const SurveyedPair& pair, const CellStore& cells, const GoesOn& goes_on,
-                     CellMap& map);
+/// Cells that are nowhere farther look like nought, and need no side: in the frame. `reached`: some
+/// point is so far.
+double near_nought(const SurveyedPair& pair, const CellMap& map, double reached);
 
 }  // namespace vkh

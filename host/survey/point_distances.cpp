@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/round_to_float.h"
 #include "host/survey/cell_store.h"
@@ -63,6 +64,34 @@ gpu::CellBounds PointDistances::narrowed(uint32_t face, const gpu::CellBounds& b
   // The square of a float is exact in double.
   narrow.square_upper = float_up(static_cast<double>(most) * static_cast<double>(most));
   return narrow;
+}
+
+namespace {
+
+// Whether a point is not known as well as it is asked, or a cut lies between its bounds.
+bool matters(const gpu::CellBounds& b, const PointDistances::Asked& asked) {
+  const auto least = static_cast<double>(lowest(b)), most = static_cast<double>(b.highest);
+  if (!(most > least)) return false;
+  return most - least > asked.least ||
+         std::any_of(asked.cuts.begin(), asked.cuts.end(),
+                     [&](const Threshold& at) { return at.down < most && at.up >= least; });
+}
+
+}  // namespace
+
+size_t PointDistances::narrow(CellsRead& points, const Asked& asked, size_t most) const {
+  constexpr size_t kPointsOfThread = 256;
+  std::vector<size_t> which;
+  for (size_t i = 0; i < points.bounds.size() && which.size() < most; ++i) {
+    if (matters(points.bounds[i], asked)) which.push_back(i);
+  }
+  for_each_range_of(kPointsOfThread, which.size(), [&](size_t, size_t begin, size_t end) {
+    for (size_t k = begin; k < end; ++k) {
+      const size_t i = which[k];
+      points.bounds[i] = narrowed(points.cells[i].face, points.bounds[i]);
+    }
+  });
+  return which.size();
 }
 
 }  // namespace vkh

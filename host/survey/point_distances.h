@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "host/mesh/triangle_tree.h"
 #include "host/solve/cells.h"
+#include "host/survey/statistics.h"
 
 namespace vkh {
 
@@ -20,6 +22,14 @@ class PointDistances {
   /// Narrows the bounds of a point of A, by its face. Its three corners are one, and so are its
   /// bounds. Leaves them as they are where the scale of the frame rounds a coordinate.
   gpu::CellBounds narrowed(uint32_t face, const gpu::CellBounds& bounds) const;
+
+  /// The points that matter: those whose bounds a cut lies between, or are wider than that.
+  struct Asked {
+    std::span<const Threshold> cuts;
+    double least;
+  };
+  /// Narrows the bounds of such points, `most` at most; returns how many they were.
+  size_t narrow(CellsRead& points, const Asked& asked, size_t most) const;
 
  private:
   Corners3 corners(uint32_t face) const;

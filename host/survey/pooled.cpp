@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "host/survey/figures_asked.h"
+#include "host/survey/lengths.h"
 #include "vkhausdorff/metrics.h"
 
 namespace vkh {
@@ -89,18 +90,6 @@ gpu::SurveyPlan PooledGoals::plan(double whole) const {
   plan.of_whole = static_cast<float>(1 / whole);
   for (const Threshold& end : ends()) add_open(end, 1, plan);
   return plan;
-}
-
-Goal pooled_goal(const PooledSearch& search, const SurveyedPair& pair, const Areas& areas) {
-  return [search = search, &pair, &areas](const CellStore& store) mutable {
-    StoredDistances distances(store, areas);
-    const Distribution own(distances, areas, pair);
-    PooledGoals goals(search, own, pair);
-    goals.look({});
-    if (goals.are_met()) return Scores{{}, true};
-    search.known = goals.known();
-    return score_undecided(store, areas, goals.ends());
-  };
 }
 
 }  // namespace vkh

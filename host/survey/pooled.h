@@ -36,7 +36,7 @@ class PooledGoals : public WaveGoals {
   bool look(const Tallied& tallied) override;
   bool are_met() const override { return !is_open_; }
   gpu::SurveyPlan plan(double whole) const override;
-  double part() const override { return Scores::kNearlyAll; }
+  double part() const override { return kNearlyAll; }
   const Enclosure& known() const { return known_; }
   /// Both ends of it, in the frame.
   std::vector<Threshold> ends() const;
@@ -50,8 +50,5 @@ class PooledGoals : public WaveGoals {
   Enclosure known_;
   bool is_open_ = true;
 };
-
-/// The same goal for cells that the host holds.
-Goal pooled_goal(const PooledSearch& search, const SurveyedPair& pair, const Areas& areas);
 
 }  // namespace vkh

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "host/base/parallel.h"
 
 namespace vkh {
 namespace {
 
-constexpr size_t kPointsOfThread = 256;
 constexpr size_t kFewestSplits = 2048;  // for a pass: the host looks at all cells between two
 
 // A score as an integer up to 2^31, so that the sum of 2^32 of them is the same in any order.
@@ -66,16 +64,6 @@ std::vector<size_t> chosen_cells(CellStore& store, Scores& scores, size_t most) 
   return cells;
 }
 
-// The points to measure, by their numbers.
-std::vector<size_t> chosen_points(Scores& scores, size_t most) {
-  const size_t count = count_that_matter(scores.cells, Scores::kNearlyAll, most);
-  std::vector<size_t> points;
-  points.reserve(count);
-  for (size_t i = 0; i < count; ++i) points.push_back(scores.cells[i].cell);
-  std::sort(points.begin(), points.end());
-  return points;
-}
-
 }  // namespace
 
 template <class Work>
@@ -88,17 +76,6 @@ void Refining::in_batches(size_t count, const Work& work) {
     meter_.note_bounded(bounds.size());
     meter_.bounds().note(bounds.size(), meter_.ms() - start);
   }
-}
-
-void Refining::bound_faces(CellStore& store) {
-  in_batches(store.count(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
-    meter_.on_device([&] {
-      pair_.bound({.cells = {}, .first = static_cast<uint32_t>(first), .bounds = bounds});
-    });
-    which_.resize(bounds.size());
-    std::iota(which_.begin(), which_.end(), first);
-    store.narrow(which_, bounds);
-  });
 }
 
 // Halves cells, and bounds both halves: none is left that is split and not bounded.
@@ -122,21 +99,6 @@ void Refining::halve(CellStore& store, std::span<const size_t> which) {
   });
 }
 
-// Measures points, each once and for ever. A point takes as much of the effort as a split.
-void Refining::measure(CellStore& store, std::span<const size_t> which) {
-  if (!distances_) distances_.emplace(pair_);
-  in_batches(which.size(), [&](size_t first, std::span<gpu::CellBounds> bounds) {
-    const std::span<const size_t> some = which.subspan(first, bounds.size());
-    for_each_range_of(kPointsOfThread, some.size(), [&](size_t, size_t begin, size_t end) {
-      for (size_t k = begin; k < end; ++k)
-        bounds[k] = distances_->narrowed(store.face(some[k]), store.bounds(some[k]));
-    });
-    store.narrow(some, bounds);
-    store.close(some);
-    meter_.spend(2 * some.size());
-  });
-}
-
 // Refines until the goal is met, or cannot be.
 SurveyEnd Refining::refine_one(CellStore& store, const Goal& goal) {
   for (;;) {
@@ -147,11 +109,7 @@ SurveyEnd Refining::refine_one(CellStore& store, const Goal& goal) {
         std::min(std::max(store.count() / 2, kFewestSplits), meter_.effort_left() / 2);
     if (most == 0) return SurveyEnd::kEffort;
     if (!meter_.goes_on()) return meter_.ended();
-    if (pair_.a.are_points) {
-      measure(store, chosen_points(scores, most));
-    } else {
-      halve(store, chosen_cells(store, scores, most));
-    }
+    halve(store, chosen_cells(store, scores, most));
   }
 }
 

@@ -1,13 +1,11 @@
-// Cells that the host holds are refined for a goal at a time: sides, normals, points. For a
-// surface's figures, its map and its faces they are refined where they are: wave_survey.h.
+// Cells that the host holds are refined for a goal at a time: for normals. For all else they are
+// refined where they are: wave_survey.h.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "host/survey/goals.h"
-#include "host/survey/point_distances.h"
 #include "host/survey/survey_meter.h"
 
 namespace vkh {
@@ -19,22 +17,18 @@ class Refining {
   /// Both outlive it.
   Refining(const SurveyedPair& pair, SurveyMeter& meter) : pair_(pair), meter_(meter) {}
 
-  /// Bounds whole faces.
-  void bound_faces(CellStore& store);
   /// Refines for one goal after the other.
   SurveyEnd refine(CellStore& store, const std::vector<Goal>& goals);
 
  private:
   SurveyEnd refine_one(CellStore& store, const Goal& goal);
   void halve(CellStore& store, std::span<const size_t> which);
-  void measure(CellStore& store, std::span<const size_t> which);
   template <class Work>
   void in_batches(size_t count, const Work& work);
 
   const SurveyedPair& pair_;
   SurveyMeter& meter_;
   std::vector<size_t> which_;  // cells of a batch
-  std::optional<PointDistances> distances_;
 };
 
 }  // namespace vkh

@@ -541,10 +541,4 @@ std::optional<int> Shells::winding(const glm::dvec3& p) const {
   return {};
 }
 
-std::optional<SurfaceSide> Shells::side_of(const glm::dvec3& p) const {
-  const std::optional<int> found = winding(p);
-  if (!found) return {};
-  return *found == front_ ? SurfaceSide::kOver : SurfaceSide::kUnder;
-}
-
 }  // namespace vkh

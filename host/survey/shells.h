@@ -37,6 +37,8 @@ class Shells {
   const Corners3& corners(uint32_t face) const { return triangles_[face]; }
   /// Whether the face is a segment or a point that no other face covers.
   bool is_bare(uint32_t face) const { return kind_[face] == Kind::kBare; }
+  /// Whether the face is a segment or a point of other faces.
+  bool is_covered(uint32_t face) const { return kind_[face] == Kind::kCovered; }
   /// Whether some face has the same corners in the opposite order.
   bool is_two_sided(uint32_t face) const { return is_two_sided_[face]; }
   /// All faces but those segments and points that other faces cover: the same points.
@@ -45,8 +47,8 @@ class Shells {
   /// The number of times that B winds round p, exactly; nothing where p lies on B, or where rays
   /// along all three axes pass through edges.
   std::optional<int> winding(const glm::dvec3& p) const;
-  /// The side of a point that is not on B, where inside() is kProven: nothing as for winding().
-  std::optional<SurfaceSide> side_of(const glm::dvec3& p) const;
+  /// The winding number in front of every face, where inside() is kProven.
+  int front() const { return front_; }
 
  private:
   struct OnlyEdges {};

@@ -1,14 +1,11 @@
-// Certified figures of all of A from its cells.
+// Areas of A, and what is told of shares of them.
 #pragma once
 
-#include <array>
 #include <functional>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "host/survey/cell_store.h"
-#include "host/survey/sides.h"
 #include "vkhausdorff/field.h"
 
 namespace vkh {
@@ -41,39 +38,11 @@ struct Threshold {
 /// `displacement`: of both, in the frame.
 Threshold threshold_at(const Frame& frame, double displacement, double distance);
 
-/// The share of A's area within each threshold. `areas.whole` exceeds its error twice.
-std::vector<Enclosure> shares_within(const CellStore& cells, const Areas& areas,
-                                     std::span<const Threshold> thresholds);
-
 /// The wish for percentiles: lengths are in the frame.
 struct PercentileSearch {
   std::span<const double> shares;
   double resolution;  ///< bounds are to be so close to the best that the cells say
-  /// Enclosures of the same shares that are known, such as the result for the cells before some of
-  /// them were split; the result is within them. Empty: none.
-  std::span<const Enclosure> known = {};
 };
-
-/// The least distance that each share of A's area is within, in the frame.
-std::vector<Enclosure> percentiles(const CellStore& cells, const Areas& areas,
-                                   const PercentileSearch& search);
-
-/// The same of the signed distance, which is negative under B; `sides` has one for each cell.
-std::vector<Enclosure> signed_percentiles(const CellStore& cells, std::span<const CellSide> sides,
-                                          const Areas& areas, const PercentileSearch& search);
-
-/// The share of cell i that is not known to be within the signed distance, nor beyond it.
-double undecided_share(const CellStore& cells, std::span<const CellSide> sides, size_t i,
-                       const Threshold& at);
-
-/// The mean of the signed distance over A, in the frame.
-Enclosure signed_mean(const CellStore& cells, std::span<const CellSide> sides, const Areas& areas);
-
-/// The shares of A's area that have no side, for each Doubt, then those over B and under it. A kind
-/// that no cell is of has none, exactly.
-std::array<Enclosure, kDoubts + 2> shares_of_sides(const CellStore& cells,
-                                                   std::span<const CellSide> sides,
-                                                   const Areas& areas);
 
 /// The mean over A's area of a quantity in [0, 1] that `of_cell` encloses on each cell.
 Enclosure mean_over(const CellStore& cells, const Areas& areas,
@@ -88,9 +57,4 @@ double mean_lower(const gpu::CellBounds& bounds);
 struct Moments {
   Enclosure mean, rms;  ///< in the frame
 };
-/// Moments of all of A, where a distance beyond `most` counts as 0.
-Moments moments_of(const CellStore& cells, const Areas& areas,
-                   const Threshold& most = {std::numeric_limits<double>::infinity(),
-                                            std::numeric_limits<double>::infinity()});
-
 }  // namespace vkh

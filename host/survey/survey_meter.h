@@ -40,7 +40,8 @@ class SurveyMeter {
         ms_of_cells_(1000 * options.time_limit_s * (keeps_time_for_sides ? kPartOfCells : 1)),
         effort_(options.effort.value_or(default_effort(on_cpu))),
         bounds_(on_cpu ? 1024 : 65536, kMostBounds, options.submission_ms),
-        looks_(on_cpu ? 65536 : kMostLooks, kMostLooks, options.submission_ms) {}
+        looks_(on_cpu ? 65536 : kMostLooks, kMostLooks, options.submission_ms),
+        sides_(on_cpu ? 1024 : 65536, kMostLooks, options.submission_ms) {}
 
   /// Whether the caller lets the survey go on, however long it took.
   bool is_wanted() {
@@ -61,6 +62,9 @@ class SurveyMeter {
 
   BatchSize& bounds() { return bounds_; }  ///< of submissions that bound cells
   BatchSize& looks() { return looks_; }    ///< of those that look at cells that have bounds
+  BatchSize& sides() { return sides_; }    ///< of those that find their sides
+  double sides_ms() const { return sides_ms_; }
+  void note_sides(double ms) { sides_ms_ += ms; }
   size_t bounded() const { return bounded_; }
   void note_bounded(size_t cells) { bounded_ += cells; }
   /// Calls `work`, whose time counts as the device's, and returns how long it took.
@@ -105,9 +109,9 @@ class SurveyMeter {
   double ms_before_ = 0, ms_of_cells_;
   const size_t effort_;
   size_t spent_ = 0;
-  BatchSize bounds_, looks_;
+  BatchSize bounds_, looks_, sides_;
   size_t bounded_ = 0;
-  double device_ms_ = 0;
+  double device_ms_ = 0, sides_ms_ = 0;
   SurveyEnd ended_ = SurveyEnd::kMet, sides_ended_ = SurveyEnd::kMet;
 };
 

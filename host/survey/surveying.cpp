@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/survey/estimate.h"
 #include "host/survey/face_goals.h"
 #include "host/survey/map_goal.h"
+#include "host/survey/sided_goals.h"
+#include "host/survey/signed_figures.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -20,9 +23,8 @@ void check_shares(const std::vector<double>& shares) {
 
 bool finds_sides(const SurveyOptions& options) { return options.is_signed || options.sided; }
 
-// Whether the host goes on with the cells.
-bool has_host_goals(const SurveyOptions& options) {
-  return options.normals_within || finds_sides(options);
+bool has_normals(const SurveyOptions& options, const SurveyedPair& pair) {
+  return options.normals_within && options.statistics && !pair.a.are_points && !pair.b.are_points;
 }
 
 SurveyedPair with_upper(SurveyedPair pair, double upper) {
@@ -50,38 +52,38 @@ Surveying::Surveying(const SurveyedPair& pair, const SurveyOptions& options)
       options_(options),
       has_cheap_sides_(may_have_cheap_sides(options, pair_)),
       meter_(options, pair.on_cpu, finds_sides(options) || has_cheap_sides_),
-      refining_(pair_, meter_),
       areas_(areas_of(pair.a)) {
   if (options.statistics) refuse_any_triangulation(pair.a, pair.b, "statistics of an area");
   check_shares(options.percentiles);
   if (!finds_sides(options)) return;
   refuse_any_triangulation(pair.a, pair.b, "sides");
   refuse_conflicts(pair.b);
-  sided_.emplace(pair_, [this] { return meter_.sides_go_on(); });
+  const double start = meter_.ms();
+  sides_.emplace(pair_, [this] { return meter_.sides_go_on(); });
+  meter_.note_sides(meter_.ms() - start);
 }
 
 void Surveying::run(SurveyResult& result) {
   result.faces = options_.faces;
   result.ended = SurveyEnd::kMet;
-  if (goes_by_waves()) {
-    waves_.emplace(pair_, areas_, meter_, farthest());
-    distances_ = &*waves_;
-    refine_by_waves(result);
-  }
-  if (waves_ && !has_host_goals(options_)) {
-    add_field(result);
-    add_figures(result);
+  waves_.emplace(pair_, areas_, meter_, farthest());
+  if (pair_.a.are_points) {
+    measure_points();
   } else {
-    refine_store(result);
+    refine(result);
   }
+  if (sides_) result.ended = std::max(result.ended, refine_sides());
+  const std::span<const float> faces = waves_->faces();
+  result.field = field_of(faces.first(faces.size() / 2), faces.last(faces.size() / 2), pair_);
+  if (options_.statistics) add_figures(result);
+  if (sides_) add_sides_of_all(result);
   if (options_.map && areas_.is_positive()) add_map(result);
+  if (has_normals(options_, pair_) && result.statistics) add_normals(result);
   result.ended = std::max(result.ended, meter_.ended());
   if (options_.statistics && !result.statistics)
     result.ended = std::max(result.ended, SurveyEnd::kBits);
   add_counts(result);
 }
-
-bool Surveying::goes_by_waves() const { return pair_.cells != nullptr && !pair_.a.are_points; }
 
 // No distance is above it, in the frame.
 float Surveying::farthest() const {
@@ -89,10 +91,22 @@ float Surveying::farthest() const {
   return static_cast<float>(std::min(most * (1 + 1e-6), 1e38));
 }
 
+// A point takes as much of the effort as a split.
+void Surveying::measure_points() {
+  if (!options_.statistics && !sides_) return;
+  const FiguresAsked asked(options_, pair_);
+  std::vector<Threshold> cuts = asked.bands();
+  if (options_.sided) {
+    for (const Limit& limit : {options_.sided->over, options_.sided->under})
+      cuts.push_back({asked.threshold(limit.within).down, asked.threshold(limit.beyond).up});
+  }
+  waves_->measure(cuts, asked.least / 2, meter_.effort() / 2);
+}
+
 // A picture may take half of the effort before figures, and what they leave after them; all of it
-// may take half where there are goals of faces, or the host goes on.
-void Surveying::refine_by_waves(SurveyResult& result) {
-  const bool has_more = options_.faces || has_host_goals(options_);
+// may take half where there are goals of faces or sides, or the host goes on.
+void Surveying::refine(SurveyResult& result) {
+  const bool has_more = options_.faces || sides_ || has_normals(options_, pair_);
   const size_t effort = meter_.effort() / (has_more ? 2 : 1);
   std::optional<MapGoals> map;
   if (options_.map && areas_.is_positive())
@@ -124,63 +138,74 @@ SurveyEnd Surveying::refine_faces(size_t effort) {
   return std::max(ended, waves_->refine(goals, effort));
 }
 
-// The host takes the cells over, and goes on.
-void Surveying::refine_store(SurveyResult& result) {
-  take_cells();
-  std::vector<Goal> goals = goals_of(options_, pair_);
-  if (sided_) add_signed_goals(*sided_, options_, areas_, goals);
-  if (options_.normals_within && options_.statistics && !pair_.a.are_points && !pair_.b.are_points)
-    normals_.emplace(pair_, options_, areas_, [this] { return meter_.goes_on(); });
-  if (normals_ && areas_.is_positive()) normals_->add_goals(goals);
-  result.ended = std::max(result.ended, refining_.refine(*store_, goals));
-  result.field = field_of(store_->reached_of_faces(), store_->highest_of_faces(), pair_);
-  if (sided_) result.sides = sided_->figures({*store_, areas_}, options_);
-  result.ended = std::max(result.ended, meter_.ended());
-  stored_ = std::make_unique<StoredDistances>(*store_, areas_);
-  distances_ = stored_.get();
-  add_figures(result);
-  if (result.statistics && normals_) add_normals(*result.statistics);
+// Nothing is gained by splits of a point.
+SurveyEnd Surveying::refine_or_look(WaveGoals& goals, AreaDistances& distances) {
+  if (!pair_.a.are_points) return waves_->refine(goals, meter_.effort(), distances);
+  waves_->look(goals, distances);
+  return goals.are_met() ? SurveyEnd::kMet : SurveyEnd::kBits;
 }
 
-void Surveying::take_cells() {
-  if (waves_) {
-    store_.emplace(waves_->store());
-    waves_.reset();
-  } else {
-    store_.emplace(pair_.a, farthest());
-    refining_.bound_faces(*store_);
+// Limits first: they need sides only where something may be beyond them.
+SurveyEnd Surveying::refine_sides() {
+  SurveyEnd ended = SurveyEnd::kMet;
+  if (options_.sided) {
+    SidedLimitGoals limits(*options_.sided, pair_, *waves_);
+    waves_->find_sides(sides_->search(), limits.least());
+    ended = refine_or_look(limits, *waves_);
   }
-}
-
-void Surveying::add_field(SurveyResult& result) {
-  const std::span<const float> faces = waves_->faces();
-  const size_t count = faces.size() / 2;
-  result.field = field_of(faces.first(count), faces.last(count), pair_);
+  waves_->find_sides(sides_->search(), -1);
+  signed_.emplace(*waves_);
+  if (!options_.is_signed || !areas_.is_positive()) return ended;
+  if (!options_.sided) {
+    UnsidedGoals area(*waves_);
+    ended = std::max(ended, refine_or_look(area, *waves_));
+  }
+  if (!options_.statistics) return ended;
+  SignedGoals goals(options_, pair_, *signed_);
+  return std::max(ended, refine_or_look(goals, *signed_));
 }
 
 void Surveying::add_figures(SurveyResult& result) {
-  if (options_.statistics) result.statistics = statistics_of(*distances_, areas_, pair_, options_);
+  result.statistics = statistics_of(*waves_, areas_, pair_, options_);
   if (result.statistics) add_middles(has_only_shares(options_), *result.statistics);
 }
 
-void Surveying::add_normals(Statistics& statistics) {
-  const Estimates estimates(pair_, *store_, [this] { return meter_.is_wanted(); });
-  normals_->add_figures(*store_, estimates, statistics);
+void Surveying::add_sides_of_all(SurveyResult& result) {
+  result.sides = signed_figures(pair_, areas_, options_, *sides_, *signed_);
+  result.sides->ms = meter_.sides_ms();
 }
 
-// Figures may be asked for afterwards where the cells are.
+// The host takes a copy of the cells, and goes on with it.
+void Surveying::add_normals(SurveyResult& result) {
+  CellStore store = waves_->store();
+  NormalCells normals(pair_, options_, areas_, [this] { return meter_.goes_on(); });
+  std::vector<Goal> goals;
+  normals.add_goals(goals);
+  Refining refining(pair_, meter_);
+  result.ended = std::max(result.ended, refining.refine(store, goals));
+  const Estimates estimates(pair_, store, [this] { return meter_.is_wanted(); });
+  normals.add_figures(store, estimates, *result.statistics);
+}
+
 void Surveying::add_map(SurveyResult& result) {
-  if (!store_) store_.emplace(waves_->store());
-  CellMap map = map_of({*store_, areas_}, pair_, options_);
-  if (sided_) add_sides(sided_->of(*store_), map);
-  if (has_cheap_sides_)
-    add_cheap_sides(
-        pair_, *store_, [this] { return meter_.sides_go_on(); }, map);
+  const CellStore store = waves_->store();
+  CellMap map = map_of({store, areas_}, pair_, options_);
+  if (has_cheap_sides_) add_cheap_sides(map);
+  if (sides_) add_sides(waves_->read({0, static_cast<uint32_t>(waves_->count())}).classes, map);
   result.map = std::make_shared<const CellMap>(std::move(map));
 }
 
+// They are found where B bounds a solid, and time is left.
+void Surveying::add_cheap_sides(CellMap& map) {
+  const Sides sides(pair_, [this] { return meter_.sides_go_on(); });
+  if (!sides.is_solid()) return;
+  if (!waves_->find_sides(sides.search(), near_nought(pair_, map, waves_->reached()))) return;
+  add_sides(waves_->read({0, static_cast<uint32_t>(waves_->count())}).classes, map);
+  map.inside_out = sides.shells().inside_out();
+}
+
 void Surveying::add_counts(SurveyResult& result) const {
-  result.cells = waves_ ? waves_->count() : store_->count();
+  result.cells = waves_->count();
   result.effort = meter_.effort();
   result.bounded = meter_.bounded();
   result.device_ms = meter_.device_ms();
@@ -190,15 +215,17 @@ void Surveying::add_counts(SurveyResult& result) const {
 bool Surveying::narrow(const PooledSearch& search, double time_limit_s, SurveyResult& result) {
   const size_t before = result.cells;
   meter_.go_on(time_limit_s);
-  if (waves_) {
-    const Distribution own = distribution();
-    PooledGoals goals(search, own, pair_);
-    waves_->refine(goals, meter_.effort());
+  const Distribution own = distribution();
+  PooledGoals goals(search, own, pair_);
+  size_t measured = 0;
+  if (pair_.a.are_points) {
+    goals.look({});
+    if (!goals.are_met()) measured = waves_->measure(goals.ends(), 3e38, meter_.effort_left() / 2);
   } else {
-    refining_.refine(*store_, {pooled_goal(search, pair_, areas_)});
+    waves_->refine(goals, meter_.effort());
   }
   add_counts(result);
-  return result.cells > before;
+  return result.cells > before || measured > 0;
 }
 
 }  // namespace vkh

@@ -1,7 +1,6 @@
 // One survey of a pair that lies on the device.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -9,13 +8,14 @@
 #include "host/survey/normals.h"
 #include "host/survey/pooled.h"
 #include "host/survey/refining.h"
-#include "host/survey/signed_figures.h"
+#include "host/survey/sides.h"
+#include "host/survey/signed_distances.h"
 #include "host/survey/wave_survey.h"
 
 namespace vkh {
 
-/// Its cells stay where they are for more to be asked of them: on the device, where the figures of
-/// a surface are all that is asked for, and else in the host's memory.
+/// Its cells stay on the device for more to be asked of them. The host takes a copy for a map, and
+/// refines one for normals.
 class Surveying {
  public:
   /// `pair` lies on the device as long as it. Both outlive it. Throws what survey_mesh() names.
@@ -28,36 +28,33 @@ class Surveying {
 
   /// The distribution of A's distances by the cells as they are. A run with statistics came before,
   /// and found some.
-  Distribution distribution() { return {*distances_, areas_, pair_}; }
+  Distribution distribution() { return {*waves_, areas_, pair_}; }
   /// Goes on for the pooled percentile, for so long at most, and adds to the result what that took;
-  /// all its figures stay. Returns whether cells were split.
+  /// all its figures stay. Returns whether more is known of some cells.
   bool narrow(const PooledSearch& search, double time_limit_s, SurveyResult& result);
 
  private:
-  bool goes_by_waves() const;
   float farthest() const;
-  void refine_by_waves(SurveyResult& result);
+  void measure_points();
+  void refine(SurveyResult& result);
   SurveyEnd refine_faces(size_t effort);
-  void refine_store(SurveyResult& result);
-  void take_cells();
-  void add_field(SurveyResult& result);
+  SurveyEnd refine_or_look(WaveGoals& goals, AreaDistances& distances);
+  SurveyEnd refine_sides();
   void add_figures(SurveyResult& result);
-  void add_normals(Statistics& statistics);
+  void add_sides_of_all(SurveyResult& result);
+  void add_normals(SurveyResult& result);
   void add_map(SurveyResult& result);
+  void add_cheap_sides(CellMap& map);
   void add_counts(SurveyResult& result) const;
 
   SurveyedPair pair_;
   const SurveyOptions& options_;
   const bool has_cheap_sides_;
   SurveyMeter meter_;
-  Refining refining_;
   const Areas areas_;
+  std::optional<Sides> sides_;
   std::optional<WaveSurvey> waves_;
-  std::optional<CellStore> store_;
-  std::unique_ptr<AreaDistances> stored_;
-  AreaDistances* distances_ = nullptr;  // of waves_, or stored_
-  std::optional<SidedCells> sided_;
-  std::optional<NormalCells> normals_;
+  std::optional<SignedDistances> signed_;
 };
 
 }  // namespace vkh

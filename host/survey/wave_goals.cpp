@@ -10,18 +10,15 @@
 namespace vkh {
 namespace {
 
-constexpr int kPieces = 5;  // into which a tally cuts each range of a percentile
-
-// A figure's whole width scores 1; it is not 0 where the figure is open, but for shares of
-// percentiles, whose ends are known by the thresholds alone.
-double weight_of_width(double width) { return 1 / std::max(width, 1e-9); }
-
 double squares_width(const Enclosure& rms) { return rms.upper * rms.upper - rms.lower * rms.lower; }
 
 }  // namespace
 
-void add_open(const Threshold& at, double weight, gpu::SurveyPlan& plan) {
+double weight_of_width(double width) { return 1 / std::max(width, 1e-9); }
+
+void add_open(const Threshold& at, double weight, gpu::SurveyPlan& plan, uint32_t classes) {
   if (plan.open_count == gpu::kSurveyOpen) return;
+  plan.open_classes[plan.open_count] = classes;
   plan.open[plan.open_count] = {static_cast<float>(at.down), static_cast<float>(at.up)};
   plan.shares[plan.open_count++] = static_cast<float>(weight);
 }
@@ -32,10 +29,7 @@ FigureGoals::FigureGoals(const SurveyOptions& options, const SurveyedPair& pair,
   if (options.max_distance) asked_.options.bands.push_back(options.max_distance->within);
   for (const Threshold& band : asked_.bands()) bands_.push_back({band});
   for (const double share : options.percentiles) {
-    Quantile& p = quantiles_.emplace_back();
-    p.share = share;
-    p.known = {0, farthest};
-    p.first = farthest;
+    quantiles_.emplace_back(share, Enclosure{0, farthest});
   }
 }
 
@@ -44,7 +38,7 @@ bool FigureGoals::is_open(size_t band) const {
   return !asked_.is_enough(b.share, band) && (!b.is_atom || asked_.options.enough);
 }
 
-bool FigureGoals::is_open(const Quantile& p) const {
+bool FigureGoals::is_open(const QuantileGoal& p) const {
   return asked_.options.narrows_percentiles && asked_.is_open(p.known) && !p.is_gap;
 }
 
@@ -60,24 +54,6 @@ std::optional<Threshold> FigureGoals::wanted_moments() const {
   return asked_.most();
 }
 
-// All that is known, and closer about both ends.
-std::vector<Threshold> FigureGoals::thresholds_of(const Quantile& p) const {
-  std::vector<Threshold> at;
-  const auto cut = [&](double from, double to) {
-    for (int k = 1; k < kPieces; ++k) {
-      const double distance = std::clamp(from + (to - from) * k / kPieces, from, to);
-      at.push_back({distance, distance});
-    }
-  };
-  cut(p.known.lower, p.known.upper);
-  cut(p.known.lower, std::clamp(p.first, p.known.lower, p.known.upper));
-  cut(std::clamp(p.last, p.known.lower, p.known.upper), p.known.upper);
-  const double beside = asked_.beside(p.known);
-  at.push_back({p.known.lower + beside, p.known.lower + beside});
-  at.push_back({p.known.upper - beside, p.known.upper - beside});
-  return at;
-}
-
 // A goal that is met stays so: what is known of it holds for parts of cells, too.
 std::vector<Threshold> FigureGoals::thresholds() const {
   std::vector<Threshold> at;
@@ -86,46 +62,10 @@ std::vector<Threshold> FigureGoals::thresholds() const {
     const auto around = asked_.around(bands_[i].at);
     at.insert(at.end(), around.begin(), around.end());
   }
-  for (const Quantile& p : quantiles_) {
-    if (!is_open(p)) continue;
-    const std::vector<Threshold> some = thresholds_of(p);
-    at.insert(at.end(), some.begin(), some.end());
+  for (const QuantileGoal& p : quantiles_) {
+    if (is_open(p)) p.add_thresholds(asked_.beside(p.known), at);
   }
   return at;
-}
-
-// A distance at which less than the share may be within is below the percentile; one at which it
-// surely is within is not.
-void FigureGoals::look(Quantile& p, std::span<const Threshold> at,
-                       std::span<const Enclosure> shares) const {
-  const size_t probes = at.size() - 2;
-  p.is_gap = asked_.is_gap(p.known, shares[probes], shares[probes + 1]);
-  p.first = p.known.upper;
-  p.last = p.known.lower;
-  p.at_first = p.at_last = {};
-  for (size_t k = 0; k < probes; ++k) {
-    const double distance = at[k].down;
-    const bool is_perhaps = shares[k].upper >= p.share, is_surely = shares[k].lower >= p.share;
-    if (!is_perhaps) p.known.lower = std::max(p.known.lower, distance);
-    if (is_surely) p.known.upper = std::min(p.known.upper, distance);
-    if (is_perhaps && distance <= p.first) {
-      p.first = distance;
-      p.at_first = shares[k];
-    }
-    if (!is_surely && distance >= p.last) {
-      p.last = distance;
-      p.at_last = shares[k];
-    }
-  }
-}
-
-// The ends must be close to where the cells have them: to see whether they are narrow, and what to
-// split; and where nearly no area lies between, to see that.
-bool FigureGoals::is_coarse(const Quantile& p) const {
-  if (!is_open(p)) return false;
-  const bool may_be_gap = asked_.is_gap(p.known, p.at_first, p.at_last);
-  const double width = FiguresAsked::width(p.known);
-  return p.doubt() > (may_be_gap ? std::min(width, asked_.beside(p.known)) : width) / 8;
 }
 
 bool FigureGoals::look(const Tallied& tallied) {
@@ -141,15 +81,18 @@ bool FigureGoals::look(const Tallied& tallied) {
   }
   if (wanted_moments()) moments_ = tallied.moments;
   bool may_be_closer = false;
-  for (Quantile& p : quantiles_) {
+  for (QuantileGoal& p : quantiles_) {
     if (!is_open(p)) continue;
+    constexpr size_t kOf = QuantileGoal::kThresholds;
     const double before = p.doubt();
-    const size_t count = thresholds_of(p).size();
-    look(p, std::span(at).subspan(k, count), shares.subspan(k, count));
-    k += count;
-    p.known.lower = std::clamp(tallied.lowest, p.known.lower, p.known.upper);
-    p.known.upper = std::clamp(tallied.highest, p.known.lower, p.known.upper);
-    may_be_closer = may_be_closer || (is_coarse(p) && 2 * p.doubt() < before);
+    p.is_gap = asked_.is_gap(p.known, shares[k + kOf - 2], shares[k + kOf - 1]);
+    p.look(std::span(at).subspan(k, kOf), shares.subspan(k, kOf));
+    k += kOf;
+    p.narrow({tallied.lowest, tallied.highest});
+    const bool may_be_gap = asked_.is_gap(p.known, p.at_first, p.at_last);
+    const bool is_coarse =
+        is_open(p) && p.is_coarse(may_be_gap ? asked_.beside(p.known) : p.width());
+    may_be_closer = may_be_closer || (is_coarse && 2 * p.doubt() < before);
   }
   return may_be_closer;
 }
@@ -160,13 +103,14 @@ bool FigureGoals::are_met() const {
   }
   return !is_open_mean() && !is_open_rms() &&
          std::none_of(quantiles_.begin(), quantiles_.end(),
-                      [&](const Quantile& p) { return is_open(p); });
+                      [&](const QuantileGoal& p) { return is_open(p); });
 }
 
 gpu::SurveyPlan FigureGoals::plan(double whole) const {
   gpu::SurveyPlan plan{};
   plan.of_whole = static_cast<float>(1 / whole);
   plan.most = edge_of(asked_.most());
+  plan.mean_classes = gpu::kAllClasses;
   if (is_open_mean())
     plan.mean = static_cast<float>(weight_of_width(FiguresAsked::width(moments_.mean)));
   if (is_open_rms()) plan.square = static_cast<float>(weight_of_width(squares_width(moments_.rms)));
@@ -174,10 +118,9 @@ gpu::SurveyPlan FigureGoals::plan(double whole) const {
     if (is_open(i))
       add_open(bands_[i].at, weight_of_width(FiguresAsked::width(bands_[i].share)), plan);
   }
-  for (const Quantile& p : quantiles_) {
+  for (const QuantileGoal& p : quantiles_) {
     if (!is_open(p)) continue;
-    const double weight =
-        weight_of_width(FiguresAsked::width(p.at_first) + FiguresAsked::width(p.at_last));
+    const double weight = p.weight();
     add_open({p.first, p.first}, weight, plan);
     add_open({p.last, p.last}, weight, plan);
   }
@@ -193,11 +136,11 @@ double FigureGoals::part() const {
   if (is_open_rms()) raise(FiguresAsked::width(moments_.rms), asked_.enough(moments_.rms));
   for (size_t i = 0; i < bands_.size(); ++i) {
     if (!is_open(i)) continue;
-    if (asked_.options.enough) return Scores::kNearlyAll;
+    if (asked_.options.enough) return kNearlyAll;
     raise(asked_.width_of_share(bands_[i].share, i), asked_.options.area_tolerance);
   }
-  for (const Quantile& p : quantiles_) {
-    if (is_open(p)) return Scores::kNearlyAll;
+  for (const QuantileGoal& p : quantiles_) {
+    if (is_open(p)) return kNearlyAll;
   }
   return part;
 }

@@ -2,14 +2,25 @@
 // next wave's cells score.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "host/survey/figures_asked.h"
+#include "host/survey/quantile_goal.h"
 
 namespace vkh {
+
+/// So much of the scores is split in one pass, the largest first: nine tenths, since a few cells
+/// that are wide often matter more than all others together.
+inline constexpr double kNearlyAll = 0.9;
+/// The part of the scores to split where a figure is to be so narrow: halves have together about
+/// half of the width of a cell, so that twice what is too much is enough.
+inline double part_to_split(double width, double enough) {
+  return std::clamp(2 * (width - enough) / width, 0.05, kNearlyAll);
+}
 
 /// A reason to split cells.
 class WaveGoals {
@@ -37,9 +48,14 @@ class WaveGoals {
   virtual uint32_t parts() const { return 4; }
 };
 
-/// Scores a cell by its undecided area at a threshold. A plan has room for some: the others are
-/// sought later.
-void add_open(const Threshold& at, double weight, gpu::SurveyPlan& plan);
+/// Scores cells of some classes by their undecided area at a threshold. A plan has room for some:
+/// the others are sought later.
+void add_open(const Threshold& at, double weight, gpu::SurveyPlan& plan,
+              uint32_t classes = gpu::kAllClasses);
+
+/// A figure's whole width scores 1; it is not 0 where the figure is open, but for shares of
+/// percentiles, whose ends are known by the thresholds alone.
+double weight_of_width(double width);
 
 /// The figures that options ask for.
 class FigureGoals : public WaveGoals {
@@ -60,30 +76,15 @@ class FigureGoals : public WaveGoals {
     Enclosure share = {0, 1};
     bool is_atom = false;
   };
-  struct Quantile {
-    double share = 0;
-    Enclosure known;
-    // The first threshold at which the share may be reached, and the last one at which it may not
-    // be: much area is undecided there, where at the ends there may be none.
-    double first = 0, last = 0;
-    Enclosure at_first, at_last;  // the shares within them
-    bool is_gap = false;
-
-    // How far the ends may be from where the cells have them.
-    double doubt() const { return (first - known.lower) + (known.upper - last); }
-  };
   bool is_open(size_t band) const;
-  bool is_open(const Quantile& p) const;
+  bool is_open(const QuantileGoal& p) const;
   bool is_open_mean() const;
   bool is_open_rms() const;
-  void look(Quantile& p, std::span<const Threshold> at, std::span<const Enclosure> shares) const;
-  bool is_coarse(const Quantile& p) const;
-  std::vector<Threshold> thresholds_of(const Quantile& p) const;
 
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
   FiguresAsked asked_;
   std::vector<Band> bands_;
-  std::vector<Quantile> quantiles_;
+  std::vector<QuantileGoal> quantiles_;
   Moments moments_{{0, kUnknown}, {0, kUnknown}};
 };
 

@@ -1,12 +1,13 @@
 #include "host/survey/wave_survey.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <utility>
+
+#include "host/survey/percentile_search.h"
 
 namespace vkh {
 namespace {
@@ -75,11 +76,12 @@ bool WaveSurvey::bound_fresh(size_t count) {
   return true;
 }
 
-// Looks at all cells in submissions, until the caller ends it; returns whether it did not.
+// Looks at all cells in submissions, until the caller ends it, if he may; returns whether he did
+// not.
 template <class Look>
-bool WaveSurvey::look_at_cells(const Look& look) {
+bool WaveSurvey::look_at_cells(bool may_end, const Look& look) {
   for (size_t first = 0; first < cells_.count();) {
-    if (!meter_.is_wanted()) return false;
+    if (may_end && !meter_.is_wanted()) return false;
     const size_t count = std::min(meter_.looks().size(), cells_.count() - first);
     const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
     meter_.looks().note(count, meter_.on_device([&] { look(some); }));
@@ -90,40 +92,71 @@ bool WaveSurvey::look_at_cells(const Look& look) {
 
 bool WaveSurvey::score(const gpu::SurveyPlan& plan) {
   counts_.assign(gpu::kScoreBins, 0);
-  return look_at_cells([&](const CellRange& some) {
+  return look_at_cells(true, [&](const CellRange& some) {
     const std::span<const uint32_t> counts = cells_.score(plan, some);
     std::transform(counts.begin(), counts.end(), counts_.begin(), counts_.begin(), std::plus<>());
   });
 }
 
-bool WaveSurvey::add_up(const gpu::SurveyPlan& plan) {
+bool WaveSurvey::add_up(const gpu::SurveyPlan& plan, bool may_end) {
   table_ = {};
   return look_at_cells(
-      [&](const CellRange& some) { add_table(cells_.tally(plan, unit_, some), table_); });
+      may_end, [&](const CellRange& some) { add_table(cells_.tally(plan, unit_, some), table_); });
 }
 
-Tallied WaveSurvey::tally(const Tally& asked) {
-  Tallied all = seen_;
+std::optional<Tallied> WaveSurvey::tally_now(const Tally& asked) { return tally_now(asked, true); }
+
+Tallied WaveSurvey::tally_anyway(const Tally& asked) { return *tally_now(asked, false); }
+
+std::optional<Tallied> WaveSurvey::tally_now(const Tally& asked, bool may_end) {
+  Tallied all;
   size_t first = 0;
   do {
     const size_t count = std::min<size_t>(asked.at.size() - first, gpu::kSurveyEdges);
-    const std::span<const Threshold> some = asked.at.subspan(first, count);
-    const TallyEdges at = edges_of(some);
-    if (!add_up(plan_of(at, asked.moments))) break;
-    const AreaTable table(table_, at, weights_, unit_);
-    const std::vector<Enclosure> shares = table.shares();
-    shares_.add(some, shares);
-    all.shares.insert(all.shares.end(), shares.begin(), shares.end());
-    if (asked.moments) seen_.moments = table.moments(*asked.moments);
-    seen_.lowest = table.lowest();
-    seen_.highest = table.highest();
+    const TallyEdges at = edges_of(asked.at.subspan(first, count));
+    gpu::SurveyPlan plan = plan_of(at, asked.moments);
+    plan.classes = asked.classes;
+    plan.far = asked.far;
+    if (!add_up(plan, may_end)) return {};
+    AreaTable(table_, at, weights_, unit_).tell(asked, all);
     first += count;
   } while (first < asked.at.size());
-  for (const Threshold& at : asked.at.subspan(first)) all.shares.push_back(shares_.within(at));
-  all.moments = seen_.moments;
-  all.lowest = seen_.lowest;
-  all.highest = seen_.highest;
   return all;
+}
+
+Tallied WaveSurvey::tally(const Tally& asked) {
+  std::optional<Tallied> found = tally_now(asked);
+  if (!found) {
+    Tallied all = seen_;
+    for (const Threshold& at : asked.at) all.shares.push_back(shares_.within(at));
+    return all;
+  }
+  shares_.add(asked.at, found->shares);
+  if (!asked.moments) found->moments = seen_.moments;
+  seen_ = *found;
+  seen_.shares.clear();
+  return *found;
+}
+
+bool WaveSurvey::find_sides(const SideSearch& search, double above) {
+  sides_ = search;
+  sides_above_ = static_cast<float>(above);
+  return find_fresh_sides();
+}
+
+// Goes over all cells: those that have a side are left at once.
+bool WaveSurvey::find_fresh_sides() {
+  if (!sides_) return true;
+  for (size_t first = 0; first < cells_.count();) {
+    if (!meter_.sides_go_on()) return false;
+    const size_t count = std::min(meter_.sides().size(), cells_.count() - first);
+    const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
+    const double ms = meter_.on_device([&] { cells_.find_sides(*sides_, sides_above_, some); });
+    meter_.sides().note(count, ms);
+    meter_.note_sides(ms);
+    first += count;
+  }
+  return true;
 }
 
 // Splits the cells that matter most, and bounds their parts; otherwise says why not.
@@ -158,37 +191,68 @@ bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
   const size_t fresh = parts * choice.count();
   spent_ += fresh;
   meter_.spend(fresh);
-  if (bound_fresh(fresh)) return true;
+  if (bound_fresh(fresh) && find_fresh_sides()) return true;
   ended = meter_.ended();
   return false;
 }
 
-SurveyEnd WaveSurvey::refine(WaveGoals& goals, size_t effort) {
-  SurveyEnd ended = SurveyEnd::kMet;
-  const auto look = [&] {
+void WaveSurvey::look(WaveGoals& goals, AreaDistances& distances) {
+  for (bool may_be_closer = true; may_be_closer;) {
     const std::vector<Threshold> at = goals.thresholds();
     const std::optional<Threshold> moments = goals.wanted_moments();
-    return goals.look(!at.empty() || moments ? tally({at, moments}) : Tallied());
-  };
+    may_be_closer = goals.look(!at.empty() || moments ? distances.tally({at, moments}) : Tallied());
+  }
+}
+
+SurveyEnd WaveSurvey::refine(WaveGoals& goals, size_t effort, AreaDistances& distances) {
+  SurveyEnd ended = SurveyEnd::kMet;
   do {
-    while (look()) {
-    }
+    look(goals, distances);
   } while (!goals.are_met() && split(goals, effort, ended));
   return std::max(ended, meter_.ended());
 }
 
+std::vector<float> WaveSurvey::faces(uint32_t reached_classes, uint32_t highest_classes) {
+  std::vector<float> faces;
+  meter_.on_device([&] { faces = cells_.faces(reached_classes, highest_classes); });
+  return faces;
+}
+
 const std::vector<float>& WaveSurvey::faces() {
-  if (faces_.empty()) meter_.on_device([&] { faces_ = cells_.faces(); });
+  if (faces_.empty()) faces_ = faces(gpu::kAllClasses, gpu::kAllClasses);
   return faces_;
 }
 
+CellsRead WaveSurvey::read(const CellRange& some) {
+  CellsRead cells;
+  meter_.on_device([&] { cells = cells_.read(some); });
+  return cells;
+}
+
 CellStore WaveSurvey::store() {
-  std::vector<gpu::Cell> cells;
-  std::vector<gpu::CellBounds> bounds;
-  meter_.on_device([&] { cells_.read(cells, bounds); });
+  CellsRead read = this->read({0, static_cast<uint32_t>(count())});
   std::vector<float> reached = faces();
   reached.resize(pair_.a.faces.size());
-  return CellStore(pair_.a, std::move(cells), std::move(bounds), std::move(reached));
+  return CellStore(pair_.a, std::move(read.cells), std::move(read.bounds), std::move(reached));
+}
+
+// A submission has as many points as one that looks at cells, whose bounds come and go.
+size_t WaveSurvey::measure(std::span<const Threshold> cuts, double least, size_t most) {
+  if (!distances_) distances_.emplace(pair_);
+  size_t measured = 0;
+  for (size_t first = 0; first < cells_.count() && measured < most;) {
+    if (!meter_.goes_on()) break;
+    const size_t count = std::min(meter_.looks().size(), cells_.count() - first);
+    const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
+    CellsRead points = read(some);
+    const size_t before = measured;
+    measured += distances_->narrow(points, {cuts, least}, most - measured);
+    if (measured > before) meter_.on_device([&] { cells_.write(some, points.bounds); });
+    first += count;
+  }
+  faces_.clear();
+  meter_.spend(2 * measured);
+  return measured;
 }
 
 // Returns the largest of one of the faces' two distances.
@@ -197,79 +261,10 @@ double WaveSurvey::largest(size_t which) {
   return static_cast<double>(*std::max_element(first, first + std::ssize(pair_.a.faces)));
 }
 
-namespace {
-
-// One end of a percentile between two distances: it is above the one and not above the other.
-struct PercentileEnd {
-  double share, low, likely, high;  // it was at the likely one before cells were split
-  bool is_upper;
-
-  static constexpr int kSections = 8;
-  double width() const { return high - low; }
-  double cut(int k) const {
-    constexpr int kHalf = kSections / 2;
-    return k <= kHalf ? low + (likely - low) * k / kHalf
-                      : likely + (high - likely) * (k - kHalf) / kHalf;
-  }
-  bool is_reached(const Enclosure& within) const {
-    return is_upper ? within.lower >= share : within.upper >= share;
-  }
-  void look(std::span<const Enclosure> at_cuts) {
-    const PercentileEnd before = *this;
-    for (int k = 1; k < kSections; ++k) {
-      if (is_reached(at_cuts[static_cast<size_t>(k - 1)])) {
-        high = std::min(high, before.cut(k));
-      } else {
-        low = std::max(low, before.cut(k));
-      }
-    }
-    likely = low + (high - low) / 2;
-  }
-};
-
-// Both ends of each percentile.
-using PercentileEnds = std::vector<std::array<PercentileEnd, 2>>;
-
-// The ends that are known worse than would do: nearer ones make no interval much narrower.
-std::vector<PercentileEnd*> wide_ends(PercentileEnds& ends, double resolution) {
-  constexpr double kOfWidth = 1.0 / 32;
-  std::vector<PercentileEnd*> wide;
-  for (auto& [lower, upper] : ends) {
-    const double enough = std::max(resolution, kOfWidth * (upper.high - lower.low));
-    for (PercentileEnd* end : {&lower, &upper}) {
-      if (end->width() > enough) wide.push_back(end);
-    }
-  }
-  return wide;
-}
-
-}  // namespace
-
-// Each pass cuts what is left of the ends. No cell is split between two.
 std::vector<Enclosure> WaveSurvey::percentiles(const PercentileSearch& search) {
-  constexpr int kMostTallies = 20;
-  PercentileEnds ends;
-  for (const double share : search.shares) {
-    const SharesSeen::Ends known =
-        shares_.percentile(share, seen_.lowest, std::min(seen_.highest, highest()));
-    ends.push_back({PercentileEnd{share, known.low, known.first, known.high, false},
-                    {share, known.low, known.last, known.high, true}});
-  }
-  for (int pass = 0; pass < kMostTallies; ++pass) {
-    const std::vector<PercentileEnd*> wide = wide_ends(ends, search.resolution);
-    std::vector<Threshold> at;
-    for (const PercentileEnd* end : wide) {
-      for (int k = 1; k < PercentileEnd::kSections; ++k) at.push_back({end->cut(k), end->cut(k)});
-    }
-    if (at.empty()) break;
-    const std::vector<Enclosure> shares = tally({at}).shares;
-    constexpr size_t kCuts = PercentileEnd::kSections - 1;
-    for (size_t i = 0; i < wide.size(); ++i)
-      wide[i]->look(std::span(shares).subspan(kCuts * i, kCuts));
-  }
-  std::vector<Enclosure> all;
-  for (const auto& [lower, upper] : ends) all.push_back({lower.low, upper.high});
-  return all;
+  const double most = std::min(seen_.highest, highest());
+  return percentiles_by(
+      search, [&](double share) { return shares_.percentile(share, seen_.lowest, most); }, *this);
 }
 
 }  // namespace vkh

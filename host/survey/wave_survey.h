@@ -11,6 +11,7 @@
 #include "host/survey/area_figures.h"
 #include "host/survey/area_table.h"
 #include "host/survey/cell_store.h"
+#include "host/survey/point_distances.h"
 #include "host/survey/shares_seen.h"
 #include "host/survey/survey_meter.h"
 #include "host/survey/wave_goals.h"
@@ -23,24 +24,41 @@ SurveyChoice choose_cells(std::span<const uint32_t> counts, double part, size_t 
 
 class WaveSurvey : public AreaDistances {
  public:
-  /// Bounds all faces of A, a surface. No distance is above `farthest`, in the frame. All arguments
-  /// outlive it; pair.cells is there.
+  /// Bounds all faces of A, or its points. No distance is above `farthest`, in the frame. All
+  /// arguments outlive it; pair.cells is there.
   WaveSurvey(const SurveyedPair& pair, const Areas& areas, SurveyMeter& meter, float farthest);
 
   /// Refines until the goals are met, or cannot be, by `effort` bounded cells at most since the
   /// survey began.
-  SurveyEnd refine(WaveGoals& goals, size_t effort);
+  SurveyEnd refine(WaveGoals& goals, size_t effort) { return refine(goals, effort, *this); }
+  /// The same for goals of distances that are told otherwise.
+  SurveyEnd refine(WaveGoals& goals, size_t effort, AreaDistances& distances);
+  /// Looks at all cells for the goals, and splits none.
+  void look(WaveGoals& goals, AreaDistances& distances);
+  /// Finds the sides of all cells that are farther than `above` somewhere, in the frame, and from
+  /// now on those of new ones; returns whether it was not ended. What the search names outlives it.
+  bool find_sides(const SideSearch& search, double above);
+  /// Measures points of A whose bounds one of the cuts lies between, or that are wider than
+  /// `least`, up to so many; returns how many they were.
+  size_t measure(std::span<const Threshold> cuts, double least, size_t most);
 
   size_t count() const { return cells_.count(); }
   /// Returns a distance that some point of each face reaches; and then one that none exceeds.
   const std::vector<float>& faces();
-  /// Hands the cells to the host.
+  /// The same of those cells of each face that are of the one set of classes, and of the other.
+  std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes);
+  CellsRead read(const CellRange& some);
+  /// Copies the cells for the host.
   CellStore store();
   /// No distance is above it, in the frame.
   double farthest() const { return std::ldexp(1.0, unit_ - 127); }
 
   /// Tells what earlier tallies did once the caller has called the survey off.
   Tallied tally(const Tally& asked) override;
+  /// Tells what the cells of some classes do, unless the caller has called the survey off.
+  std::optional<Tallied> tally_now(const Tally& asked);
+  /// The same even then: for the figures of sides, of which little is known otherwise.
+  Tallied tally_anyway(const Tally& asked);
   std::vector<Enclosure> percentiles(const PercentileSearch& search) override;
   double reached() override { return largest(0); }
   double highest() override { return largest(1); }
@@ -49,9 +67,11 @@ class WaveSurvey : public AreaDistances {
   bool bound_fresh(size_t count);
   bool split(WaveGoals& goals, size_t effort, SurveyEnd& ended);
   template <class Look>
-  bool look_at_cells(const Look& look);
+  bool look_at_cells(bool may_end, const Look& look);
   bool score(const gpu::SurveyPlan& plan);
-  bool add_up(const gpu::SurveyPlan& plan);
+  bool add_up(const gpu::SurveyPlan& plan, bool may_end);
+  std::optional<Tallied> tally_now(const Tally& asked, bool may_end);
+  bool find_fresh_sides();
   double largest(size_t which);
 
   const SurveyedPair& pair_;
@@ -63,7 +83,10 @@ class WaveSurvey : public AreaDistances {
   std::vector<uint32_t> counts_;  // of the last score's bins
   gpu::SurveyTable table_;        // of the last tally
   SharesSeen shares_;
-  Tallied seen_;              // all but shares
+  Tallied seen_;  // all but shares
+  std::optional<SideSearch> sides_;
+  float sides_above_ = 0;
+  std::optional<PointDistances> distances_;
   std::vector<float> faces_;  // none until they are asked for
 };
 

@@ -26,7 +26,7 @@ layout(scalar, binding = 11) buffer FacesReached { uint faces_reached[]; };
 layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 
 #include "shaders/base/root.glsl"
-#include "shaders/report/cell.h"
+#include "shaders/report/cell_boxes.glsl"
 #include "shaders/traversal/traversal.glsl"
 
 // The place of an item. A survey's parts of one cell follow each other, since they look at the same
@@ -48,19 +48,6 @@ Cell cell_at(uint i) {
   }
   uint face = min(push.first + i, push.face_count - 1u);
   return Cell(pack_corners(whole_root()), face, vertex_nearest[faces[face].x]);
-}
-
-// A box is off by the low parts of what is in it and of the point, an ulp of each, and its distance
-// by its own rounding.
-float box_doubt(CellFrame t, float distance) {
-  return 4.0 * kUlp * (t.reach + t.radius + distance);
-}
-
-// Boxes at this distance, squared, or farther hold nothing that is closest anywhere on T.
-float cell_reach(Gathered g, CellFrame t) {
-  float far = round_up(g.highest + t.radius, 4.0);
-  far = round_up(far + box_doubt(t, far), 8.0);
-  return min(round_up(far * far, 8.0), 3.0e38);
 }
 
 // A distance that surely lies between the centre and a box at this distance, squared, or farther.
@@ -98,7 +85,7 @@ Gathered gather(CellFrame t, uint start) {
   if (start != kNone) start = min(start, push.triangle_count - 1u);
   uint nearest = min(nearest_triangle(middle, start).triangle, push.triangle_count - 1u);
   Gathered g = begin_gathering(t, load_surface(nearest, cell_view(t)), nearest);
-  float reach = cell_reach(g, t);
+  float reach = cell_reach(g.highest, t);
   uint not_leaves = 0u;
   uint found = 0u;
   uint looked_at = 0u;
@@ -111,7 +98,7 @@ Gathered gather(CellFrame t, uint start) {
     not_leaves += 1u - (traversal_at >> 31);
     found += ((traversal_at >> 28) & 7u) + 1u;
     g = with_leaf(g, t, traversal_at, looked_at);
-    reach = min(reach, cell_reach(g, t));
+    reach = min(reach, cell_reach(g.highest, t));
     traversal_at = pop(reach);
   }
   if (traversal_at != kNone) ++left_count;  // the box taken from the top is left, too

@@ -109,6 +109,19 @@ VKH_FN uint score_bin(float score) {
   return choose(score >= kLeastNormal, min(bits >> 20, kScoreBins - 1u), 0u);
 }
 
+// A cell that lies on one side of B hands that on to its parts.
+VKH_FN uint class_of_parts(uint of_class) {
+  return choose(of_class == kClassOver || of_class == kClassUnder, of_class, kClassUnseen);
+}
+
+// 1 over B, 2 under it, 0: no side is known.
+VKH_FN uint side_index(uint of_class) { return choose(of_class > kClassUnder, 0u, of_class); }
+
+VKH_FN bool is_among(uint of_class, uint classes) { return ((classes >> of_class) & 1u) != 0u; }
+
+// The width of the mean of a distance that may have either sign, as where no side is known.
+VKH_FN float either_width(TallyBounds b) { return 2.0f * b.mean_upper; }
+
 // Keeps what a split leaves of a cell's bounds until its parts have theirs: an affine function
 // has other values at a part's corners.
 VKH_FN CellBounds bounds_of_parts(CellBounds b) {

@@ -1,5 +1,5 @@
 // Makes each face of A a cell, of which nothing is known but that no distance is above `farthest`.
-// Out: cells, bounds, one per face.
+// Out: cells, bounds, classes, one per face.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,6 +9,7 @@
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) writeonly buffer Cells { Cell cells[]; };
 layout(scalar, binding = 1) writeonly buffer Bounds { CellBounds bounds[]; };
+layout(scalar, binding = 2) writeonly buffer Classes { uint classes[]; };
 layout(scalar, push_constant) uniform PushBlock { SurveyBeginPush push; };
 
 void main() {
@@ -18,4 +19,5 @@ void main() {
   cells[i] = Cell(pack_corners(whole_root()), i, kNone);
   bounds[i] = CellBounds(0.0, 0.0, 0.0, most, most, most, most, 0.0, most, 3.0e38, kNone, kNone,
                          kNone, kNone, kNone);
+  classes[i] = kClassUnseen;
 }

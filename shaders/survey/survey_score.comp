@@ -1,6 +1,7 @@
-// Scores cells by the plan. In: cells, bounds, weights, faces_reached (floats as bits), plan. Out:
-// keys, the bins of the cells' scores, and histogram: how many cells each bin has, and its bin 0
-// how many are in their face's way although no split helps. A workgroup goes over many cells.
+// Scores cells by the plan. In: cells, bounds, classes, weights, faces_reached (floats as bits),
+// plan. Out: keys, the bins of the cells' scores, and histogram: how many cells each bin has, and
+// its bin 0 how many are in their face's way although no split helps. A workgroup goes over many
+// cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -14,29 +15,35 @@ layout(scalar, binding = 3) readonly buffer Plan { SurveyPlan plan; };
 layout(scalar, binding = 4) writeonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 5) buffer Histogram { uint histogram[]; };
 layout(scalar, binding = 6) readonly buffer FacesReached { uint faces_reached[]; };
+layout(scalar, binding = 7) readonly buffer Classes { uint classes[]; };
 layout(scalar, push_constant) uniform PushBlock { SurveyPush push; };
 
 #include "shaders/survey/score.h"
 
 shared uint counts[kScoreBins];
 
-float score_of(CellBounds of_cell) {
+float score_of(CellBounds of_cell, uint of_class) {
   bool is_open = plan.mean > 0.0 || plan.square > 0.0 || plan.open_count > 0u;
   if (!is_open) return 0.0;
   TallyBounds b = tally_bounds(of_cell);
   float score = 0.0;
   TallyBounds kept = within_most(b, plan.most);
-  if (plan.mean > 0.0) score += plan.mean * mean_width(kept);
+  if (plan.mean > 0.0 && is_among(of_class, plan.mean_classes)) {
+    bool is_either = is_among(of_class, plan.either_side);
+    score += plan.mean * (is_either ? either_width(kept) : mean_width(kept));
+  }
   if (plan.square > 0.0) score += plan.square * square_width(kept);
-  for (uint i = 0u; i < plan.open_count; ++i)
-    score += plan.shares[i] * undecided_share(b, plan.open[i]);
+  for (uint i = 0u; i < plan.open_count; ++i) {
+    if (is_among(of_class, plan.open_classes[i]))
+      score += plan.shares[i] * undecided_share(b, plan.open[i]);
+  }
   return score;
 }
 
-float score_for_face(uint i, float highest) {
+float score_for_face(uint i, float highest, uint of_class) {
   if (plan.faces == 0u) return 0.0;
   return face_score(highest, uintBitsToFloat(faces_reached[cells[i].face]), plan.face_tolerance,
-                    plan.face_within, plan.face_beyond);
+                    plan.face_within[side_index(of_class)], plan.face_beyond);
 }
 
 struct Key {
@@ -46,10 +53,11 @@ struct Key {
 
 Key key_of(uint i) {
   CellBounds b = bounds[i];
-  float of_face = score_for_face(i, b.highest);
+  uint of_class = classes[i];
+  float of_face = score_for_face(i, b.highest, of_class);
   Key none = Key(0u, of_face > 0.0);
   if (b.highest - lowest_of(b) <= kScoreFloor) return none;
-  float score = score_of(b);
+  float score = score_of(b, of_class);
   float of_map = map_score(b, plan.map_step, plan.map_most);
   if (!(score > 0.0) && !(of_map > 0.0) && !(of_face > 0.0)) return none;
   Cell cell = cells[i];

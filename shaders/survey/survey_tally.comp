@@ -1,5 +1,6 @@
-// Adds up what cells tell of A: areas within the plan's edges, means and mean squares. In:
-// cells, bounds, weights, plan. Out: table, to which is added. A workgroup goes over many cells.
+// Adds up what cells of the plan's classes tell of A: areas within the plan's edges, means and mean
+// squares. In: cells, bounds, classes, weights, plan. Out: table, to which is added. A workgroup
+// goes over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,15 +12,16 @@ layout(scalar, binding = 1) readonly buffer Bounds { CellBounds bounds[]; };
 layout(scalar, binding = 2) readonly buffer Weights { Wide weights[]; };
 layout(scalar, binding = 3) readonly buffer Plan { SurveyPlan plan; };
 layout(scalar, binding = 4) buffer Table { SurveyTable table; };
+layout(scalar, binding = 5) readonly buffer Classes { uint classes[]; };
 layout(scalar, push_constant) uniform PushBlock { SurveyPush push; };
 
-#include "shaders/survey/tally.h"
+#include "shaders/survey/score.h"
 
 shared float edges_down[kSurveyEdges];
 shared float edges_up[kSurveyEdges];
 shared uint sums_low[kSurveySums];
 shared uint sums_high[kSurveySums];
-shared uint highest, not_lowest;
+shared uint highest, not_lowest, reached, not_far;
 
 // Every addition that wraps the low word carries, whatever their order.
 void add(uint at, uvec2 x) {
@@ -81,7 +83,7 @@ void begin_sums() {
     edges_down[k] = plan.edges[k].down;
     edges_up[k] = plan.edges[k].up;
   }
-  if (lane == 0u) highest = not_lowest = 0u;
+  if (lane == 0u) highest = not_lowest = reached = not_far = 0u;
   barrier();
 }
 
@@ -100,6 +102,8 @@ void end_sums() {
   if (gl_LocalInvocationID.x == 0u) {
     atomicMax(table.highest, highest);
     atomicMax(table.not_lowest, not_lowest);
+    atomicMax(table.reached, reached);
+    atomicMax(table.not_far, not_far);
   }
 }
 
@@ -107,9 +111,10 @@ void main() {
   begin_sums();
   Moments sums;
   sums.mean_lower = sums.mean_upper = sums.square_lower = sums.square_upper = uvec2(0u);
-  uint most = 0u, not_least = 0u;
+  uint most = 0u, not_least = 0u, farthest = 0u, not_first = 0u;
   uint stride = kGroupSize * push.groups;
   for (uint i = push.first + item_index(); i < push.end; i += stride) {
+    if (!is_among(classes[i], plan.classes)) continue;
     Cell cell = cells[i];
     Wide of_face = weights[cell.face];
     CellWeight w =
@@ -118,10 +123,14 @@ void main() {
     if (plan.moments != 0u) add_moments(within_most(b, plan.most), w, sums);
     most = max(most, bits_of(b.highest));
     not_least = max(not_least, ~bits_of(lowest_of(b)));
+    farthest = max(farthest, bits_of(bounds[i].reached));
+    if (bounds[i].reached >= plan.far) not_first = max(not_first, ~i);
     add_within(b, w);
   }
   atomicMax(highest, most);
   atomicMax(not_lowest, not_least);
+  atomicMax(reached, farthest);
+  atomicMax(not_far, not_first);
   if (plan.moments != 0u) {
     add(kMeanLower, sums.mean_lower);
     add(kMeanUpper, sums.mean_upper);

@@ -89,6 +89,7 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
     gpu::SurveyPlan plan{};
     plan.of_whole = 1.0f / (static_cast<float>(kWeight) * static_cast<float>(faces));
     plan.mean = 1;
+    plan.classes = plan.mean_classes = gpu::kAllClasses;
     plan.most = {8, 8};
     plan.edge_count = 2;
     plan.edges[0] = {0, 0};
@@ -114,16 +115,14 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
       const VkhSurveyBound first{0, parents, 4, faces};  // in two parts
       const VkhSurveyBound rest{parents, 3 * parents, 4, faces};
       const VkhSurveyTally tally = bench.tally(cells, 127 + 3);
-      VkhSurveyRead read{};
-      read.cells = cells;
-      read.faceBuffer = read.cellBuffer = read.boundsBuffer = bench.found.handle();
-      read.faceOffset = 65536;
-      read.cellOffset = 131072;
-      read.boundsOffset = 1048576;
+      const VkBuffer found = bench.found.handle();
+      const VkhSurveyFaces told{cells, gpu::kAllClasses, gpu::kAllClasses, found, 65536};
+      const VkhSurveyRead read{0, cells, found, 131072, found, 1048576, found, 3145728};
       vkhCmdSplitSurvey(context.get(), c, &pair.problem(), &bench.survey, &split);
       vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &first, nullptr);
       vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &rest, nullptr);
       vkhCmdTallySurvey(context.get(), c, &pair.problem(), &bench.survey, &tally);
+      vkhCmdWriteSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &told);
       vkhCmdReadSurvey(context.get(), c, &pair.problem(), &bench.survey, &read);
       record_host_barrier(c);
     });

@@ -12,8 +12,11 @@
 #include <map>
 
 #include "host/solve/cell_corners.h"
+#include "host/solve/held_pairs.h"
 #include "tests/shapes/adversarial.h"
 #include "tests/shapes/shapes.h"
+#include "tests/support/all_cells.h"
+#include "tests/support/solver_bench.h"
 #include "tests/support/tally.h"
 #include "tests/verification/oracle/exact_side.h"
 #include "vkhausdorff/error.h"
@@ -211,19 +214,6 @@ std::array<dvec3, 3> triangle_about(const Mesh& mesh, Random& random) {
   return corners;
 }
 
-gpu::Cell random_cell(uint32_t face, Random& random) {
-  lib::Bary3 t = lib::whole_root();
-  for (uint32_t k = random.below(10); k > 0; --k) {
-    const uint32_t opposite = random.below(3);
-    const lib::Halves h = lib::halves_of(t, opposite, lib::middle_opposite(t, opposite));
-    t = random.below(2) == 0 ? h.first : h.second;
-  }
-  gpu::Cell cell{};
-  set_corners(cell, t);
-  cell.face = face;
-  return cell;
-}
-
 // The corners of a cell, and random points of it, as barycentrics with the sum 2^24.
 std::vector<glm::uvec3> points_of(const gpu::Cell& cell, Random& random) {
   const lib::Bary3 t = corners_of(cell);
@@ -238,51 +228,32 @@ std::vector<glm::uvec3> points_of(const gpu::Cell& cell, Random& random) {
   return points;
 }
 
-// Bounds as a device might give them: the distance of the middle, less the cell's radius.
-gpu::CellBounds bounds_of(const ExactSides& oracle, const Mesh& a, const gpu::Cell& cell,
-                          const SurveyedPair& pair) {
-  const glm::uvec3& f = a.faces[cell.face];
-  const lib::Bary3 t = corners_of(cell);
-  const auto point = [&](const glm::uvec2& w) {
-    const dvec3 ab = a.vertices[f.y] - a.vertices[f.x], ac = a.vertices[f.z] - a.vertices[f.x];
-    return dvec3(a.vertices[f.x]) + (ab * double(w.x) + ac * double(w.y)) * 0x1p-20;
-  };
-  const dvec3 p = point(t.a), q = point(t.b), r = point(t.c), middle = (p + q + r) / 3.0;
-  const double radius =
-      std::max({glm::length(p - middle), glm::length(q - middle), glm::length(r - middle)});
-  Nearest nearest;
-  oracle.tree().query(middle, nearest);
-  const double lower = (std::sqrt(nearest.squared) - radius) * (1 - 1e-6);
-  gpu::CellBounds bounds{};
-  bounds.lower_a = bounds.lower_b = bounds.lower_c = static_cast<float>(pair.frame.to_frame(lower));
-  bounds.face = nearest.face;
-  return bounds;
-}
-
 struct Attack {
-  Tally tally;
+  test::Tally tally;
   std::map<std::string, std::array<int, 2>> of_family = {};  // cells, and those with a side
 };
 
+// A cell, and what was told of it: by planes alone, and by all that is known of B.
+struct ToldCell {
+  gpu::Cell cell;
+  CellSide by_planes, told;
+};
+
 // Checks one claim at some points of the cell.
-void check_cell(Attack& attack, const ExactSides& oracle, const ClosedCase& b,
-                const gpu::Cell& cell, const Sides& sides, const SurveyedPair& pair,
-                Random& random) {
-  const gpu::CellBounds bounds = bounds_of(oracle, pair.a, cell, pair);
-  const CellSide by_faces = sides.by_faces(cell, bounds.face), told = sides.of(cell, bounds);
+void check_cell(Attack& attack, const ExactSides& oracle, const ClosedCase& b, const ToldCell& of,
+                const Sides& sides, const SurveyedPair& pair, Random& random) {
+  const auto& [cell, by_planes, told] = of;
   auto& counts = attack.of_family[b.name];
   ++counts[0];
   counts[1] += told.side != SurfaceSide::kUnsigned ? 1 : 0;
-  Tally& tally = attack.tally;
+  test::Tally& tally = attack.tally;
   const auto describe = [&] { return std::string(b.name); };
   tally.require((told.side == SurfaceSide::kUnsigned) == (told.doubt != Doubt::kNone),
                 "a doubt where there is no side", describe);
-  tally.require(by_faces.side == SurfaceSide::kUnsigned || by_faces.side == told.side,
-                "sides by faces and by winding agree", describe);
   const double off = 1e-12 * (diagonal(pair.b) + glm::length(dvec3(pair.b.vertices[0])));
   for (const glm::uvec3& w : points_of(cell, random)) {
     const exact::Vector p = oracle.point(cell.face, w);
-    if (sides.is_shared()) {
+    if (sides.is_solid()) {
       const std::optional<int> winding = oracle.winding(p);
       tally.count("points on B, or behind edges along all axes", !winding);
       if (!winding) continue;
@@ -292,63 +263,22 @@ void check_cell(Attack& attack, const ExactSides& oracle, const ClosedCase& b,
       tally.require(
           told.side == SurfaceSide::kUnsigned || (told.side == SurfaceSide::kOver) == is_over,
           "the side by parity", describe);
+      tally.count("points with a side by parity", told.side != SurfaceSide::kUnsigned);
     }
-    if (by_faces.side == SurfaceSide::kUnsigned) continue;
+    if (by_planes.side == SurfaceSide::kUnsigned) continue;
     const glm::uvec3& f = pair.a.faces[cell.face];
     const dvec3 near = (pair.a.vertices[f.x] * double(w.x) + pair.a.vertices[f.y] * double(w.y) +
                         pair.a.vertices[f.z] * double(w.z)) *
                        0x1p-24;
     const ExactSides::Closest closest = oracle.closest(p, near, off);
-    const bool is_over = by_faces.side == SurfaceSide::kOver;
+    const bool is_over = by_planes.side == SurfaceSide::kOver;
     tally.require((is_over ? closest.below : closest.above) == 0 && closest.in_plane == 0 &&
                       (is_over ? closest.above : closest.below) > 0,
                   "the side by all closest faces", describe);
   }
 }
 
-// Checks the sides of all cells of a surface that is cut at random.
-void check_list(Attack& attack, const ClosedCase& b, Random& random) {
-  const Mesh a = translated(
-      moved(icosphere(1, 1),
-            [&](const dvec3& p) { return p * (0.6 * diagonal(b.mesh) * random.range(0.3, 0.6)); }),
-      dvec3(b.mesh.vertices[0]) * random.range(-1, 1));
-  const FramedPair framed = frame_pair(a, b.mesh);
-  const SurveyedPair pair{a,    b.mesh, framed.frame, framed.a.displacement + framed.b.displacement,
-                          1e30, true};
-  const ExactSides oracle(a, b.mesh);
-  CellStore store(a, 1e30f);
-  for (int pass = 0; pass < 3; ++pass) {
-    std::vector<size_t> which;
-    for (size_t i = 0; i < store.count(); ++i) {
-      if (random.below(2) == 0) which.push_back(i);
-    }
-    store.split(which);
-  }
-  std::vector<size_t> all(store.count());
-  std::vector<gpu::CellBounds> bounds;
-  for (size_t i = 0; i < all.size(); ++i) {
-    all[i] = i;
-    bounds.push_back(bounds_of(oracle, a, store.cell(i), pair));
-  }
-  store.narrow(all, bounds);
-  const Sides sides(pair);
-  const std::vector<CellSide> told = sides.of(store);
-  for (size_t i = 0; i < told.size(); i += 7) {
-    const glm::uvec3 w = points_of(store.cell(i), random).back();
-    const std::optional<int> winding = oracle.winding(oracle.point(store.face(i), w));
-    const CellSide alone = sides.of(store.cell(i), store.bounds(i));
-    const auto describe = [&] { return std::string(b.name); };
-    attack.tally.require(alone.side == SurfaceSide::kUnsigned || alone.side == told[i].side,
-                         "a cell alone and in a list", describe);
-    if (!winding || !sides.is_shared() || told[i].side == SurfaceSide::kUnsigned) continue;
-    attack.tally.require((told[i].side == SurfaceSide::kOver) ==
-                             (*winding == (b.name == std::string("reversed") ? -1 : 0)),
-                         "the side by parity, shared", describe);
-    attack.tally.count("cells of lists", true);
-  }
-}
-
-void attack(Attack& attack, uint64_t seed, int cells) {
+void attack(Attack& attack, uint64_t seed, uint32_t cells) {
   Random random(seed);
   const ClosedCase b = closed_case(static_cast<uint32_t>(seed % kFamilies), random);
   std::vector<dvec3> vertices;
@@ -358,24 +288,31 @@ void attack(Attack& attack, uint64_t seed, int cells) {
     faces.push_back({3 * k, 3 * k + 1, 3 * k + 2});
   }
   const Mesh a = make_mesh("cells", std::move(vertices), std::move(faces));
-  const FramedPair framed = frame_pair(a, b.mesh);
-  const SurveyedPair pair{a,    b.mesh, framed.frame, framed.a.displacement + framed.b.displacement,
-                          1e30, true};
-  const Sides sides(pair);
-  attack.tally.require(
-      !b.inside || sides.shells().inside() == *b.inside, "the kind of inside",
-      [&] { return std::string(b.name) + ": " + inside_name(sides.shells().inside()); });
-  const ExactSides oracle(a, b.mesh);
-  for (int k = 0; k < cells; ++k)
-    check_cell(attack, oracle, b, random_cell(static_cast<uint32_t>(k) % 40, random), sides, pair,
-               random);
-  check_list(attack, b, random);
+  hold_pair(solver(), {a, b.mesh}, {}, [&](const SurveyedPair& pair) {
+    const Sides sides(pair);
+    attack.tally.require(
+        !b.inside || sides.shells().inside() == *b.inside, "the kind of inside",
+        [&] { return std::string(b.name) + ": " + inside_name(sides.shells().inside()); });
+    const ExactSides oracle(a, b.mesh);
+    const size_t at_least = size_t{1} << (6 + random.below(6));
+    SideSearch by_planes = sides.search();
+    by_planes.is_solid = false;
+    const std::vector<uint32_t> classes = sided_cells(pair, by_planes, at_least).classes;
+    const CellsRead told = sided_cells(pair, sides.search(), at_least);
+    REQUIRE(classes.size() == told.cells.size());
+    for (uint32_t k = 0; k < cells; ++k) {
+      const size_t i = random.below(static_cast<uint32_t>(classes.size()));
+      check_cell(attack, oracle, b,
+                 {told.cells[i], side_of_class(classes[i]), side_of_class(told.classes[i])}, sides,
+                 pair, random);
+    }
+  });
 }
 
 TEST_CASE("sides of cells about hard meshes, by exact integers") {
   const char* count = std::getenv("VKH_SIDES_MESHES");
   const int meshes = count != nullptr ? std::atoi(count) : 112;
-  Attack all{Tally("sides")};
+  Attack all{test::Tally("sides")};
   for (int seed = 0; seed < meshes && !all.tally.hopeless(); ++seed)
     attack(all, static_cast<uint64_t>(seed), 60);
   for (const auto& [name, counts] : all.of_family)
@@ -390,25 +327,11 @@ TEST_CASE("an edge of two faces in one direction is refused, by its faces") {
   const FramedPair framed = frame_pair(a, b);
   const Sides sides({a, b, framed.frame, 0, 10, true});
   CHECK(sides.shells().edges().conflicts == 3);
-  CHECK_FALSE(sides.is_shared());
+  CHECK_FALSE(sides.is_solid());
   REQUIRE(sides.shells().edges().first);
   const auto [first, second] = sides.shells().edges().first->faces;
   CHECK((first == 5 || second == 5));
   CHECK_THROWS_AS(refuse_conflicts(b), InputError);
-}
-
-// A's coordinate of 2^-1074 is lost where both meshes are scaled by 2^-500.
-TEST_CASE("no side is shared where scaling rounds a coordinate of A") {
-  const double large = std::ldexp(1.0, 500), least = std::ldexp(1.0, -1074);
-  const auto is_shared = [&](double of_a) {
-    const Mesh b = moved(cube(1), [&](const dvec3& p) { return p * large; });
-    const Mesh a =
-        single_triangle({2 * large, of_a, 0}, {2 * large, large, 0}, {2 * large, 0, large});
-    const FramedPair framed = frame_pair(a, b);
-    return Sides({a, b, framed.frame, 0, 10 * large, true}).is_shared();
-  };
-  CHECK(is_shared(0));
-  CHECK_FALSE(is_shared(least));
 }
 
 Shells shells_of(const Mesh& mesh) {

@@ -267,38 +267,6 @@ TEST_CASE("a survey that is ended among its sides keeps those that it found") {
   }
 }
 
-// Each side is asked for once: a search that has nothing left asks nothing.
-TEST_CASE("sides are found piece by piece, and once") {
-  const Mesh a = square_patch(16, 0.25), b = square_patch(3, 0.0);
-  const FramedPair framed = frame_pair(a, b);
-  int left = 0, calls = 0;
-  const Sides sides({a, b, framed.frame, 0, 10, true}, [&] { return ++calls, --left >= 0; });
-  CellStore cells(a, 10);
-  std::vector<size_t> all(cells.count());
-  std::iota(all.begin(), all.end(), size_t{0});
-  gpu::CellBounds bounds{};
-  bounds.highest = 1;
-  cells.narrow(all, std::vector<gpu::CellBounds>(all.size(), bounds));
-  KnownSides known;
-  const auto count = [&](Doubt doubt) {
-    const std::vector<CellSide> found = known.of(cells);
-    return std::count_if(found.begin(), found.end(),
-                         [&](const CellSide& side) { return side.doubt == doubt; });
-  };
-  CHECK_FALSE(sides.find(cells, -1, known));
-  CHECK(count(Doubt::kEnded) == std::ssize(all));
-  left = 1;
-  CHECK_FALSE(sides.find(cells, -1, known));
-  CHECK(count(Doubt::kNone) == 64);  // the first piece
-  CHECK(known.of(cells)[0].side == SurfaceSide::kOver);
-  left = 1000;
-  CHECK(sides.find(cells, -1, known));
-  for (const CellSide& side : known.of(cells)) CHECK(side.side == SurfaceSide::kOver);
-  calls = 0;
-  CHECK(sides.find(cells, -1, known));
-  CHECK(calls == 0);
-}
-
 TEST_CASE("signed figures are as narrow as is asked") {
   SurveyOptions options;
   options.signed_tolerance = 0.01;
@@ -311,24 +279,6 @@ TEST_CASE("signed figures are as narrow as is asked") {
   };
   check(*r.sides->mean);
   for (const Percentile& p : r.sides->percentiles) check(p.distance);
-}
-
-// Bounds from below at all corners may be negative: the cell is under B all the same.
-TEST_CASE("all of a cell under B is within 0, whatever its corners' bounds are") {
-  const Mesh a = square_patch(1, 0.0);
-  CellStore cells(a, 1);
-  gpu::CellBounds bounds{};
-  bounds.lower_a = bounds.lower_b = bounds.lower_c = -0.5f;
-  bounds.upper_a = bounds.upper_b = bounds.upper_c = bounds.highest = 0.1f;
-  const std::vector<size_t> both{0, 1};
-  cells.narrow(both, std::vector<gpu::CellBounds>(2, bounds));
-  const std::vector<CellSide> sides(2, {SurfaceSide::kUnder, Doubt::kNone});
-  const std::array shares = {0.5, 0.99};
-  for (const Enclosure& p : signed_percentiles(cells, sides, areas_of(a), {shares, 1e-6})) {
-    CHECK(p.upper <= 2e-6);
-    CHECK(p.upper >= 0);
-    CHECK(p.lower >= doctest::Approx(-0.1));
-  }
 }
 
 }  // namespace

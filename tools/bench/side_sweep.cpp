@@ -11,6 +11,7 @@
 #include "host/survey/signed_figures.h"
 #include "host/survey/survey_with.h"
 #include "tests/shapes/shapes.h"
+#include "tests/support/all_cells.h"
 #include "tests/verification/oracle/exact_side.h"
 #include "tools/bench/sweep.h"
 #include "vkhausdorff/mesh_io.h"
@@ -55,7 +56,7 @@ std::optional<bool> is_right(const SurveyedPair& pair, const ExactSides& oracle,
   const glm::uvec3 w = random_point(cell, random);
   const exact::Vector p = oracle.point(cell.face, w);
   const bool is_over = told == SurfaceSide::kOver;
-  if (sides.is_shared()) {
+  if (sides.is_solid()) {
     const std::optional<int> winding = oracle.winding(p);
     if (!winding) return std::nullopt;
     const bool is_outside = *winding == 0;
@@ -67,20 +68,21 @@ std::optional<bool> is_right(const SurveyedPair& pair, const ExactSides& oracle,
   return (is_over ? closest.below : closest.above) == 0 && closest.in_plane == 0;
 }
 
-Checked check_cells(const SurveyedPair& pair, const CellStore& store, const Sides& sides,
-                    const std::vector<CellSide>& told, size_t count) {
+Checked check_cells(const SurveyedPair& pair, const CellsRead& cells, const Sides& sides,
+                    size_t count) {
   const ExactSides oracle(pair.a, pair.b);
   std::vector<Checked> parts(64);
   for_each_index(parts.size(), [&](size_t part) {
     Random random(part + 1);
     Checked& mine = parts[part];
     for (size_t k = 0; k < count / parts.size() + 1; ++k) {
-      const size_t i = random.below(static_cast<uint32_t>(store.count()));
+      const size_t i = random.below(static_cast<uint32_t>(cells.cells.size()));
+      const SurfaceSide told = side_of_class(cells.classes[i]).side;
       ++mine.cells;
-      if (told[i].side == SurfaceSide::kUnsigned) continue;
+      if (told == SurfaceSide::kUnsigned) continue;
       ++mine.with_side;
       for (int point = 0; point < 2; ++point) {
-        const auto right = is_right(pair, oracle, sides, store.cell(i), told[i].side, random);
+        const auto right = is_right(pair, oracle, sides, cells.cells[i], told, random);
         mine.skipped += right ? 0 : 1;
         mine.points += right ? 1 : 0;
         mine.wrong += right && !*right ? 1 : 0;
@@ -119,9 +121,9 @@ std::vector<double> sampled(const Mesh& a, const Mesh& b, size_t count) {
       const dvec3 p = t[0] + v * (t[1] - t[0]) + w * (t[2] - t[0]);
       Nearest nearest;
       tree.query(p, nearest);
-      const std::optional<SurfaceSide> side = shells.side_of(p);
+      const std::optional<int> winding = shells.winding(p);
       const double d = std::sqrt(nearest.squared);
-      parts[part].push_back(!side ? 0 : *side == SurfaceSide::kOver ? d : -d);
+      parts[part].push_back(!winding ? 0 : *winding == shells.front() ? d : -d);
     }
   });
   std::vector<double> all;
@@ -161,33 +163,13 @@ double survey_ms(Solver& solver, const Mesh& a, const Mesh& b, const SweepOption
   return result.ms;
 }
 
-// Halves the largest cells until there are so many, and tells the sides of all.
+// Splits all cells until there are so many, and tells the sides of all.
 Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const SweepOptions& args) {
   Checked checked;
   hold_pair(solver, {a, b}, {}, [&](const SurveyedPair& pair) {
-    CellStore store(a, 3e38f);
-    for (bool is_first = true; is_first || store.count() < args.effort / 2; is_first = false) {
-      std::vector<size_t> which;
-      for (size_t i = 0; !is_first && i < store.count(); ++i) {
-        if (store.can_split(i)) which.push_back(i);
-      }
-      if (!is_first && which.empty()) break;
-      store.split(which);
-      std::vector<gpu::Cell> cells;
-      std::vector<size_t> all(store.count());
-      std::iota(all.begin(), all.end(), size_t{0});
-      for (const size_t i : all) cells.push_back(store.cell(i));
-      std::vector<gpu::CellBounds> bounds(all.size());
-      for (size_t at = 0; at < all.size(); at += 4096) {
-        const size_t end = std::min(all.size(), at + 4096);
-        pair.bound({.cells = std::span(cells).subspan(at, end - at),
-                    .first = 0,
-                    .bounds = std::span(bounds).subspan(at, end - at)});
-      }
-      store.narrow(all, bounds);
-    }
     const Sides sides(pair);
-    checked = check_cells(pair, store, sides, sides.of(store), args.cells);
+    const CellsRead cells = sided_cells(pair, sides.search(), args.effort / 2);
+    checked = check_cells(pair, cells, sides, args.cells);
   });
   return checked;
 }

@@ -244,7 +244,7 @@ TEST_CASE("a reach is not under what it covers, and a box's distance not above w
     Gathered g = nothing_gathered();
     g.highest = any(-60);
     const Rational reach = Rational(g.highest) + Rational(t.radius) + Rational(t.slack);
-    REQUIRE(Rational(double{cell_reach(g, t)}) >= reach * reach + underflow);
+    REQUIRE(Rational(double{cell_reach(g.highest, t)}) >= reach * reach + underflow);
     const double distance2 = random.below(4) == 0 ? any(-148) : any(-30);
     const Rational d(box_distance_down(t.slack, distance2));
     REQUIRE((d == 0 ||

@@ -1,0 +1,83 @@
+// The goals of sides by waves: limits that differ by side, area without a side, signed figures.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host/survey/signed_distances.h"
+#include "host/survey/wave_goals.h"
+
+namespace vkh {
+
+/// A cell scores if it may be beyond the limit of its side, or has none and may be beyond the
+/// smaller one. Met, too, as soon as some point is beyond.
+class SidedLimitGoals : public WaveGoals {
+ public:
+  SidedLimitGoals(const SidedLimits& limits, const SurveyedPair& pair, WaveSurvey& waves);
+
+  /// Cells that are nowhere farther need no side, in the frame.
+  double least() const { return std::min(over_.within, under_.within); }
+
+  bool look(const Tallied& tallied) override;
+  bool are_met() const override { return are_met_; }
+  gpu::SurveyPlan plan(double whole) const override;
+  double part() const override { return kNearlyAll; }
+
+ private:
+  // In the frame: a distance on the stored meshes of at most `within` is within the limit, and one
+  // of more than `beyond` is not.
+  struct LimitInFrame {
+    double within, beyond;
+  };
+  static LimitInFrame in_frame(const SurveyedPair& pair, const Limit& limit);
+
+  const LimitInFrame over_, under_;
+  WaveSurvey& waves_;
+  bool are_met_ = false;
+};
+
+/// A cell without a side that may get one scores by its area, until a twentieth of A's is left that
+/// has none and is farther from B than a hundredth of the largest distance: what is nearer has a
+/// signed distance that is known as well without a side.
+class UnsidedGoals : public WaveGoals {
+ public:
+  explicit UnsidedGoals(WaveSurvey& waves) : waves_(waves) {}
+
+  bool look(const Tallied& tallied) override;
+  bool are_met() const override { return are_met_; }
+  gpu::SurveyPlan plan(double whole) const override;
+  double part() const override { return kNearlyAll; }
+
+ private:
+  double near() const { return 0.01 * waves_.reached(); }
+
+  WaveSurvey& waves_;
+  bool are_met_ = false;
+};
+
+/// The signed mean and percentiles.
+class SignedGoals : public WaveGoals {
+ public:
+  SignedGoals(const SurveyOptions& options, const SurveyedPair& pair, SignedDistances& distances);
+
+  std::vector<Threshold> thresholds() const override;
+  std::optional<Threshold> wanted_moments() const override;
+  bool look(const Tallied& tallied) override;
+  bool are_met() const override;
+  gpu::SurveyPlan plan(double whole) const override;
+  double part() const override { return kNearlyAll; }
+
+ private:
+  double enough(const Enclosure& figure) const;
+  bool is_open(const Enclosure& figure) const {
+    return figure.upper - figure.lower > enough(figure);
+  }
+
+  const SurveyOptions& options_;
+  SignedDistances& distances_;
+  const double least_;  // the width that is always enough, in the frame
+  Enclosure mean_;
+  std::vector<QuantileGoal> quantiles_;
+};
+
+}  // namespace vkh
