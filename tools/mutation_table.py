@@ -12,6 +12,7 @@ PAPER = "shaders/paper/bounds_paper.h"
 BARY = "shaders/math/bary.h"
 DYADIC = "shaders/math/dyadic.h"
 CELL = "shaders/report/cell.h"
+SIDE = "shaders/report/side.h"
 PARTS = "shaders/math/parts.h"
 WIDE = "shaders/survey/wide.h"
 TALLY = "shaders/survey/tally.h"
@@ -35,6 +36,7 @@ ON_BARY = ["lib_attack_test", "lib_bary_test", "lib_model_test"]
 ON_CELL = ["lib_cell_model_test", "lib_cell_test"]
 ON_PARTS = ["lib_parts_model_test", "lib_parts_test"]
 ON_TALLY = ["lib_tally_test"]
+ON_SIDE = ["lib_side_test"]
 ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
 ON_LENGTH = ["diagonal_test"]
@@ -200,6 +202,19 @@ ROWS = [
     row("drawn_of's choice", SCORE, "level.off < affine.off", ["level.off > affine.off"], ON_TALLY),
     row("has_quarters' bits", SCORE, "& 3u) == 0u", ["& 1u) == 0u"], ON_TALLY),
     row("half_points' corner", SCORE, "(split - 1u) % 3u, 3u, half_side", ["split % 3u, 3u, half_side"], ON_TALLY),
+
+    # side.h
+    row("side_of_plane's turn", SIDE, "2.0f * off * (norm_up(e) + norm_up(f) + 2.0f * off)", ["0.0f"], ON_SIDE),
+    row("side_of_plane's point", SIDE, "area * (2.0f * off + 13.0f * kUlp * away)", ["area * 13.0f * kUlp * away"], ON_SIDE),
+    row("side_of_plane's rounding", SIDE, "13.0f * kUlp * away", ["0.0f * away"], ON_SIDE),
+    row("turn_error's rounding", SIDE, "10.0f * kUlp * size", ["0.0f * size"], ON_SIDE),
+    row("turn_error's off", SIDE, "1.001f * off * (sum + 2.0f * off)", ["0.5f * off * sum", "0.0f"], ON_SIDE),
+    row("product_error's area", SIDE, "abs(x) * error + (abs(w) + error)", ["(abs(w) + error)"], ON_SIDE),
+    row("product_error's coordinate", SIDE, "(8.0f * kUlp * abs(x) + off)", ["(8.0f * kUlp * abs(x))", "0.0f"], ON_SIDE),
+    row("crossing_of's direction", SIDE, "ahead == x ? x : 0", ["x"], ON_SIDE),
+    row("may_be_closest's move", SIDE, "minorant_off(t, s) + 2.0f * moved", ["minorant_off(t, s) + moved", "minorant_off(t, s)"], ON_SIDE),
+    row("is_off's move", SIDE, "lowest > round_up(moved, 4.0f)", ["lowest >= moved", "lowest > 0.0f"], ON_SIDE),
+    row("class_with's other side", SIDE, "(before != kClassUnseen && before != now)", ["false"], ON_SIDE),
 
     # parts.h
     counts("shortened", PARTS, "1.0f - {8.0f} * kUlp, norm_up(r)", ON_PARTS, steps=[4.0, 0.0, -32.0]),
