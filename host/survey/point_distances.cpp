@@ -79,11 +79,15 @@ bool matters(const gpu::CellBounds& b, const PointDistances::Asked& asked) {
 
 }  // namespace
 
-size_t PointDistances::narrow(CellsRead& points, const Asked& asked, size_t most) const {
+PointDistances::Measured PointDistances::narrow(CellsRead& points, const Asked& asked,
+                                                size_t most) const {
   constexpr size_t kPointsOfThread = 256;
   std::vector<size_t> which;
-  for (size_t i = 0; i < points.bounds.size() && which.size() < most; ++i) {
-    if (matters(points.bounds[i], asked)) which.push_back(i);
+  bool are_all = true;
+  for (size_t i = 0; i < points.bounds.size() && are_all; ++i) {
+    if (!matters(points.bounds[i], asked)) continue;
+    are_all = which.size() < most;
+    if (are_all) which.push_back(i);
   }
   for_each_range_of(kPointsOfThread, which.size(), [&](size_t, size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
@@ -91,7 +95,7 @@ size_t PointDistances::narrow(CellsRead& points, const Asked& asked, size_t most
       points.bounds[i] = narrowed(points.cells[i].face, points.bounds[i]);
     }
   });
-  return which.size();
+  return {which.size(), are_all};
 }
 
 }  // namespace vkh

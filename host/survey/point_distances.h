@@ -28,8 +28,12 @@ class PointDistances {
     std::span<const Threshold> cuts;
     double least;
   };
-  /// Narrows the bounds of such points, `most` at most; returns how many they were.
-  size_t narrow(CellsRead& points, const Asked& asked, size_t most) const;
+  struct Measured {
+    size_t count = 0;
+    bool are_all = true;  ///< no other one matters
+  };
+  /// Narrows the bounds of such points, `most` at most.
+  Measured narrow(CellsRead& points, const Asked& asked, size_t most) const;
 
  private:
   Corners3 corners(uint32_t face) const;

@@ -68,7 +68,7 @@ void Surveying::run(SurveyResult& result) {
   result.ended = SurveyEnd::kMet;
   waves_.emplace(pair_, areas_, meter_, farthest());
   if (pair_.a.are_points) {
-    measure_points();
+    result.ended = measure_points();
   } else {
     refine(result);
   }
@@ -92,15 +92,16 @@ float Surveying::farthest() const {
 }
 
 // A point takes as much of the effort as a split.
-void Surveying::measure_points() {
-  if (!options_.statistics && !sides_) return;
+SurveyEnd Surveying::measure_points() {
+  if (!options_.statistics && !sides_) return SurveyEnd::kMet;
   const FiguresAsked asked(options_, pair_);
   std::vector<Threshold> cuts = asked.bands();
   if (options_.sided) {
     for (const Limit& limit : {options_.sided->over, options_.sided->under})
       cuts.push_back({asked.threshold(limit.within).down, asked.threshold(limit.beyond).up});
   }
-  waves_->measure(cuts, asked.least / 2, meter_.effort() / 2);
+  const bool are_all = waves_->measure({cuts, asked.least / 2}, meter_.effort() / 2).are_all;
+  return are_all ? SurveyEnd::kMet : SurveyEnd::kEffort;
 }
 
 // A picture may take half of the effort before figures, and what they leave after them; all of it
@@ -220,7 +221,10 @@ bool Surveying::narrow(const PooledSearch& search, double time_limit_s, SurveyRe
   size_t measured = 0;
   if (pair_.a.are_points) {
     goals.look({});
-    if (!goals.are_met()) measured = waves_->measure(goals.ends(), 3e38, meter_.effort_left() / 2);
+    if (!goals.are_met()) {
+      const std::vector<Threshold> ends = goals.ends();
+      measured = waves_->measure({ends, 3e38}, meter_.effort_left() / 2).count;
+    }
   } else {
     waves_->refine(goals, meter_.effort());
   }

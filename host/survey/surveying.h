@@ -35,7 +35,7 @@ class Surveying {
 
  private:
   float farthest() const;
-  void measure_points();
+  SurveyEnd measure_points();
   void refine(SurveyResult& result);
   SurveyEnd refine_faces(size_t effort);
   SurveyEnd refine_or_look(WaveGoals& goals, AreaDistances& distances);

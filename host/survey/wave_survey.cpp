@@ -237,22 +237,22 @@ CellStore WaveSurvey::store() {
 }
 
 // A submission has as many points as one that looks at cells, whose bounds come and go.
-size_t WaveSurvey::measure(std::span<const Threshold> cuts, double least, size_t most) {
+PointDistances::Measured WaveSurvey::measure(const PointDistances::Asked& asked, size_t most) {
   if (!distances_) distances_.emplace(pair_);
-  size_t measured = 0;
-  for (size_t first = 0; first < cells_.count() && measured < most;) {
-    if (!meter_.goes_on()) break;
+  PointDistances::Measured all;
+  for (size_t first = 0; first < cells_.count() && all.are_all && meter_.goes_on();) {
     const size_t count = std::min(meter_.looks().size(), cells_.count() - first);
     const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
     CellsRead points = read(some);
-    const size_t before = measured;
-    measured += distances_->narrow(points, {cuts, least}, most - measured);
-    if (measured > before) meter_.on_device([&] { cells_.write(some, points.bounds); });
+    const auto [measured, are_all] = distances_->narrow(points, asked, most - all.count);
+    if (measured > 0) meter_.on_device([&] { cells_.write(some, points.bounds); });
+    all = {all.count + measured, are_all};
     first += count;
   }
   faces_.clear();
-  meter_.spend(2 * measured);
-  return measured;
+  meter_.note_bounded(all.count);
+  meter_.spend(2 * all.count);
+  return all;
 }
 
 // Returns the largest of one of the faces' two distances.

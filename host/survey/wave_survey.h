@@ -38,9 +38,8 @@ class WaveSurvey : public AreaDistances {
   /// Finds the sides of all cells that are farther than `above` somewhere, in the frame, and from
   /// now on those of new ones; returns whether it was not ended. What the search names outlives it.
   bool find_sides(const SideSearch& search, double above);
-  /// Measures points of A whose bounds one of the cuts lies between, or that are wider than
-  /// `least`, up to so many; returns how many they were.
-  size_t measure(std::span<const Threshold> cuts, double least, size_t most);
+  /// Measures points of A that matter, up to so many.
+  PointDistances::Measured measure(const PointDistances::Asked& asked, size_t most);
 
   size_t count() const { return cells_.count(); }
   /// Returns a distance that some point of each face reaches; and then one that none exceeds.

@@ -71,8 +71,7 @@ class Options(unittest.TestCase):
             with self.subTest(command):
                 found = completed(command, "--device", "")
                 several = {"all"} if command in ("distance", "batch") else set()
-                native = set() if command == "simplify" else {"native"}
-                self.assertEqual(found, {"gpu", "cpu"} | several | native)
+                self.assertEqual(found, {"gpu", "cpu", "native"} | several)
 
     def test_rules_name_options_of_the_table(self):
         table = json.loads(subprocess.run([PRINT_OPTIONS], capture_output=True, text=True, timeout=60, check=True).stdout)
