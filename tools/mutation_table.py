@@ -386,7 +386,7 @@ ROWS = [
     row("a cut's third piece in doubles", CELL, "1.0f - to_p, to_p * (1.0f - to_q)", ["1.0f - to_p, 0.0f"], ON_CELLS_IN_DOUBLES),
     row("the least of all lower bounds in doubles", CELL, "g.at_corners = min(g.at_corners, m.at_corners)", ["g.at_corners = m.at_corners"], ON_CELLS_IN_DOUBLES),
     row("shortened in doubles", PARTS, "1.0f - 8.0f * kUlp, norm_up(r)) * r", ["1.0f + 1.0f * kUlp, norm_up(r)) * r", "1.0f + 4.0f * kUlp, norm_up(r)) * r"], ON_CELLS_IN_DOUBLES),
-    row("a reach's slack", CELL_IN_DOUBLES, "g.highest + t.radius + t.slack", ["g.highest + t.radius"], ON_CELLS_IN_DOUBLES),
+    row("a reach's slack", CELL_IN_DOUBLES, "highest + t.radius + t.slack", ["highest + t.radius"], ON_CELLS_IN_DOUBLES),
     row("a reach's float", CELL_IN_DOUBLES, "float_above(far * far)", ["static_cast<float>(far * far)"], ON_CELLS_IN_DOUBLES),
     row("a box's distance's slack", CELL_IN_DOUBLES, " - 0x1p-74 - slack", [" - 0x1p-74"], ON_CELLS_IN_DOUBLES),
     row("a box's distance's underflow", CELL_IN_DOUBLES, " - 0x1p-74", [" - 0x1p-76", ""], ON_CELLS_IN_DOUBLES),

@@ -43,12 +43,12 @@ bool SidedLimitGoals::look(const Tallied& /*tallied*/) {
 }
 
 gpu::SurveyPlan SidedLimitGoals::plan(double /*whole*/) const {
-  constexpr auto kAnyFloat = static_cast<float>(kAnyDistance);
+  constexpr auto kAny = static_cast<float>(kAnyDistance);
   const auto down = [](double within) { return edge_of({within, within}).down; };
   gpu::SurveyPlan plan{};
   plan.faces = 1;
-  plan.face_tolerance = -kAnyFloat;
-  plan.face_beyond = kAnyFloat;
+  plan.face_tolerance = -kAny;
+  plan.face_beyond = kAny;
   plan.face_within[0] = down(least());
   plan.face_within[gpu::kClassOver] = down(over_.within);
   plan.face_within[gpu::kClassUnder] = down(under_.within);

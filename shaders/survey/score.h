@@ -40,7 +40,10 @@ VKH_FN DrawnCell drawn_by(CellBounds b, vec3 at) {
   vec3 upper = vec3(b.upper_a, b.upper_b, b.upper_c);
   float farther = min(max3(upper - at), b.highest - least3(at));
   float nearer = min(max3(at - lower), max3(at) - lowest_of(b));
-  return DrawnCell(at, max(farther, nearer));
+  DrawnCell drawn;
+  drawn.at = at;
+  drawn.off = max(farther, nearer);
+  return drawn;
 }
 
 // Draws the middle of the affine functions, or of the numbers, whichever is less off.
