@@ -16,7 +16,7 @@ struct FaceWeights {
   double v = 0, w = 0;
   double distance2 = std::numeric_limits<double>::infinity();  ///< steers
 };
-/// Those of a point near the closest one.
+/// Finds those of a point near the closest one.
 FaceWeights closest_weights(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corners);
 
 /// A point next to a triangle, at distance e from p.

@@ -60,9 +60,9 @@ struct CellRange {
   uint32_t first = 0, count = 0;
 };
 
-/// What has to be known of B to find the sides of cells.
+/// Tells a search for the sides of cells what it has to know of B.
 struct SideSearch {
-  /// Of B's faces: gpu::kFaceCovered and so on.
+  /// Tells of each face of B what kind it is: gpu::kFaceCovered and so on.
   std::span<const uint32_t> face_kinds;
   /// B bounds a solid: it winds `front` times round all that is in front of its faces, and one time
   /// more or less round all other points off it.

@@ -29,8 +29,7 @@ std::vector<Threshold> FiguresAsked::bands() const {
 Threshold FiguresAsked::most() const {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   if (!options.max_distance) return {kAny, kAny};
-  return {frame.to_frame(options.max_distance->within) * (1 - 1e-15) - displacement,
-          frame.to_frame(options.max_distance->beyond) * (1 + 1e-15) + displacement};
+  return threshold(*options.max_distance);
 }
 
 double FiguresAsked::width_of_share(const Enclosure& share, size_t band) const {

@@ -41,6 +41,10 @@ struct FiguresAsked {
   }
   bool is_open(const Enclosure& length) const { return width(length) > enough(length); }
   Threshold threshold(double distance) const { return threshold_at(frame, displacement, distance); }
+  /// A distance of at most `down` is within the limit, and one of more than `up` is not.
+  Threshold threshold(const Limit& limit) const {
+    return {threshold(limit.within).down, threshold(limit.beyond).up};
+  }
   std::vector<Threshold> bands() const;
   static constexpr size_t kOfBand = 3;
   /// The thresholds that tell of a band: itself, and a least width before and behind it.

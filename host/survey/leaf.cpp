@@ -14,7 +14,7 @@ namespace vkh {
 namespace {
 
 constexpr double kUlp = 0x1p-52;
-// What low parts lose, of a point's largest coordinate and of the largest seen from it: each
+// Low parts lose so much of a point's largest coordinate and of the largest seen from it: each
 // component of the point is off by 2^-98 for each of a hundred halvings, so by 2^-91.3, and of an
 // offset by twelve roundings of under 2^-103. The root of three times their square is under 2^-90.
 constexpr double kOff = 0x1p-90;

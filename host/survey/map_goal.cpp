@@ -48,7 +48,7 @@ class Percentile99 {
   std::vector<uint64_t> area_;
 };
 
-// Of what is drawn at the cells' middles, without what is farther than `most`, in the frame.
+// Returns it for what is drawn at the cells' middles, without what is farther than `most`.
 double percentile_99(std::span<const MapCell> cells, double most) {
   std::vector<Percentile99> blocks(block_count(cells.size()));
   for_each_block(cells.size(), [&](size_t block, size_t begin, size_t end) {

@@ -16,27 +16,23 @@ void add_farther(double distance, double weight, uint32_t classes, gpu::SurveyPl
 
 }  // namespace
 
-SidedLimitGoals::LimitInFrame SidedLimitGoals::in_frame(const SurveyedPair& pair,
-                                                        const Limit& limit) {
-  return {pair.frame.to_frame(limit.within) * (1 - 1e-15) - pair.displacement,
-          pair.frame.to_frame(limit.beyond) * (1 + 1e-15) + pair.displacement};
-}
-
-SidedLimitGoals::SidedLimitGoals(const SidedLimits& limits, const SurveyedPair& pair,
+SidedLimitGoals::SidedLimitGoals(const SurveyOptions& options, const SurveyedPair& pair,
                                  WaveSurvey& waves)
-    : over_(in_frame(pair, limits.over)), under_(in_frame(pair, limits.under)), waves_(waves) {}
+    : over_(FiguresAsked(options, pair).threshold(options.sided->over)),
+      under_(FiguresAsked(options, pair).threshold(options.sided->under)),
+      waves_(waves) {}
 
 // Tallies at no distance tell what cells reach, and what they do not exceed.
 bool SidedLimitGoals::look(const Tallied& /*tallied*/) {
-  const double most = std::max(over_.beyond, under_.beyond);
+  const double most = std::max(over_.up, under_.up);
   bool are_within = true, is_beyond = false;
   const auto see = [&](uint32_t classes, double within, double beyond) {
     const std::optional<Tallied> told = waves_.tally_now({.at = {}, .classes = classes});
     are_within = are_within && told && (told->is_empty || told->highest <= within);
     is_beyond = is_beyond || (told && static_cast<double>(told->reached) > beyond);
   };
-  see(kOverB, over_.within, over_.beyond);
-  see(kUnderB, under_.within, under_.beyond);
+  see(kOverB, over_.down, over_.up);
+  see(kUnderB, under_.down, under_.up);
   see(kWithoutSide, least(), most);
   are_met_ = are_within || is_beyond;
   return false;
@@ -50,8 +46,8 @@ gpu::SurveyPlan SidedLimitGoals::plan(double /*whole*/) const {
   plan.face_tolerance = -kAny;
   plan.face_beyond = kAny;
   plan.face_within[0] = down(least());
-  plan.face_within[gpu::kClassOver] = down(over_.within);
-  plan.face_within[gpu::kClassUnder] = down(under_.within);
+  plan.face_within[gpu::kClassOver] = down(over_.down);
+  plan.face_within[gpu::kClassUnder] = down(under_.down);
   return plan;
 }
 

@@ -13,10 +13,11 @@ namespace vkh {
 /// smaller one. Met, too, as soon as some point is beyond.
 class SidedLimitGoals : public WaveGoals {
  public:
-  SidedLimitGoals(const SidedLimits& limits, const SurveyedPair& pair, WaveSurvey& waves);
+  /// `options` ask for limits of sides.
+  SidedLimitGoals(const SurveyOptions& options, const SurveyedPair& pair, WaveSurvey& waves);
 
   /// Cells that are nowhere farther need no side, in the frame.
-  double least() const { return std::min(over_.within, under_.within); }
+  double least() const { return std::min(over_.down, under_.down); }
 
   bool look(const Tallied& tallied) override;
   bool are_met() const override { return are_met_; }
@@ -24,14 +25,7 @@ class SidedLimitGoals : public WaveGoals {
   double part() const override { return kNearlyAll; }
 
  private:
-  // In the frame: a distance on the stored meshes of at most `within` is within the limit, and one
-  // of more than `beyond` is not.
-  struct LimitInFrame {
-    double within, beyond;
-  };
-  static LimitInFrame in_frame(const SurveyedPair& pair, const Limit& limit);
-
-  const LimitInFrame over_, under_;
+  const Threshold over_, under_;
   WaveSurvey& waves_;
   bool are_met_ = false;
 };

@@ -1,4 +1,4 @@
-// What the search for the sides of cells has to know of B, and far points of one side;
+// Prepares the search for the sides of cells, and proves far points of one side;
 // docs/certificate.md has the argument.
 #pragma once
 
@@ -21,7 +21,7 @@ class Sides {
   const Shells& shells() const { return shells_; }
   /// Whether B bounds a solid: shells().inside() is proven, of the corners as given.
   bool is_solid() const { return is_exact_ && shells_.inside() == Inside::kProven; }
-  /// What is told of B, as long as this lives.
+  /// Returns what the search has to know of B; it holds as long as this lives.
   SideSearch search() const;
 
   /// The corner of the cell that is farthest from B, and a distance that is proven of it as it lies

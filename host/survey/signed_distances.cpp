@@ -10,7 +10,7 @@
 namespace vkh {
 namespace {
 
-// What cells of one side tell: shares of A's area within distances, and of all of them.
+// Holds what cells of one side tell: shares of A's area within distances, and of all of them.
 struct OfSide {
   std::vector<Enclosure> within;
   Enclosure all;
@@ -52,7 +52,8 @@ Enclosure share_at(const Threshold& at, size_t i, const std::array<OfSide, 3>& s
 
 }  // namespace
 
-// What the cells of one side are asked: nothing is nearer than a distance below 0.
+// Asks the cells of one side. At a threshold of the other sign they are asked nothing: no distance
+// is below 0.
 std::optional<Tallied> SignedDistances::tally_side(const Tally& asked, uint32_t classes) {
   std::vector<Threshold> at;
   for (const Threshold& one : asked.at) {
@@ -93,7 +94,7 @@ Tallied SignedDistances::tally(const Tally& asked) {
   return all;
 }
 
-// What holds for cells holds for their parts.
+// Repeats what was told of larger cells, since it holds for their parts.
 Tallied SignedDistances::told_before(const Tally& asked) {
   Tallied all;
   all.highest = waves_.highest();

@@ -13,7 +13,7 @@ namespace vkh {
 /// Cells by their classes: over B, under it, and without a side.
 inline constexpr uint32_t kOverB = 1u << gpu::kClassOver, kUnderB = 1u << gpu::kClassUnder,
                           kWithoutSide = gpu::kAllClasses & ~(kOverB | kUnderB);
-/// Those without a side whose parts may have one: segments and points of B, faces on each other and
+/// Cells without a side whose parts may have one: segments and points of B, faces on each other and
 /// too many faces stay in the way however small a cell is.
 inline constexpr uint32_t kMayGetSide = 1u << gpu::kClassMeets | 1u << gpu::kClassEdge;
 

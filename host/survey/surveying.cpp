@@ -78,6 +78,7 @@ void Surveying::run(SurveyResult& result) {
   if (options_.statistics) add_figures(result);
   if (sides_) add_sides_of_all(result);
   if (options_.map && areas_.is_positive()) add_map(result);
+  waves_->end_sides();
   if (has_normals(options_, pair_) && result.statistics) add_normals(result);
   result.ended = std::max(result.ended, meter_.ended());
   if (options_.statistics && !result.statistics)
@@ -98,7 +99,7 @@ SurveyEnd Surveying::measure_points() {
   std::vector<Threshold> cuts = asked.bands();
   if (options_.sided) {
     for (const Limit& limit : {options_.sided->over, options_.sided->under})
-      cuts.push_back({asked.threshold(limit.within).down, asked.threshold(limit.beyond).up});
+      cuts.push_back(asked.threshold(limit));
   }
   const bool are_all = waves_->measure({cuts, asked.least / 2}, meter_.effort() / 2).are_all;
   return are_all ? SurveyEnd::kMet : SurveyEnd::kEffort;
@@ -150,7 +151,7 @@ SurveyEnd Surveying::refine_or_look(WaveGoals& goals, AreaDistances& distances) 
 SurveyEnd Surveying::refine_sides() {
   SurveyEnd ended = SurveyEnd::kMet;
   if (options_.sided) {
-    SidedLimitGoals limits(*options_.sided, pair_, *waves_);
+    SidedLimitGoals limits(options_, pair_, *waves_);
     waves_->find_sides(sides_->search(), limits.least());
     ended = refine_or_look(limits, *waves_);
   }

@@ -38,6 +38,8 @@ class WaveSurvey : public AreaDistances {
   /// Finds the sides of all cells that are farther than `above` somewhere, in the frame, and from
   /// now on those of new ones; returns whether it was not ended. What the search names outlives it.
   bool find_sides(const SideSearch& search, double above);
+  /// New cells need no side from now on, and the search is asked for nothing more.
+  void end_sides() { sides_.reset(); }
   /// Measures points of A that matter, up to so many.
   PointDistances::Measured measure(const PointDistances::Asked& asked, size_t most);
 
