@@ -1,8 +1,11 @@
 // Prints the options table and the commands as JSON, for tools/options/make_pages.py.
 //
-//   vkh_print_options [--key WORDS...]    --key: the key of the pairs of that command line, instead
+//   vkh_print_options [--keys]
+//
+// --keys: reads command lines, a list of lists of words, and prints the keys of their pairs.
+#include <algorithm>
 #include <cstdio>
-#include <iterator>
+#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "host/answer/options_table.h"
@@ -114,11 +117,15 @@ Json json_of(const Command& command) {
 
 int main(int argc, char** argv) {
   using namespace vkh;
-  if (argc > 1 && argv[1] == std::string_view("--key")) {
-    Program program;
-    program.app().parse(std::vector<std::string>(std::reverse_iterator(argv + argc),
-                                                 std::reverse_iterator(argv + 2)));
-    std::puts(key_text(program.asked()).c_str());
+  if (argc > 1 && argv[1] == std::string_view("--keys")) {
+    Json keys = Json::array();
+    for (std::vector<std::string> words : Json::parse(std::cin)) {
+      std::ranges::reverse(words);  // as CLI11 takes them
+      Program program;
+      program.app().parse(words);
+      keys.push_back(key_text(program.asked()));
+    }
+    std::puts(keys.dump().c_str());
     return 0;
   }
   Json all{{"commands", Json::array()}, {"options", Json::array()}};
