@@ -140,10 +140,10 @@ class Many(unittest.TestCase):
 
     def test_to_one_mesh_and_in_a_with_statement(self):
         heard = Heard()
-        parts = ((f"part {n}", wavy(n, 0.01 * n)) for n in range(2, 6))
+        parts = ((f"part {n}", wavy(n, 0.01 * n)) for n in range(2, 4))
         with vkh.distances(parts, against=B, max=0.2, symmetric=True, align=True, on_progress=heard) as results:
             found = list(results)
-        self.assertEqual((len(found), len(heard), heard[-1][0]), (4, 4, 1))
+        self.assertEqual((len(found), len(heard), heard[-1][0]), (2, 2, 1))
         self.assertEqual(heard[-1][1:], (max(r.lower for r in found), max(r.upper for r in found)))
 
     def test_no_pairs(self):

@@ -7,6 +7,7 @@
 
 #include "host/mesh/default_pair.h"
 #include "tests/shapes/shapes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/place.h"
@@ -16,7 +17,7 @@ using namespace vkh::test;
 
 namespace {
 
-constexpr size_t kPoses = 2;
+constexpr size_t kPoses = kIsSanitized ? 1 : 2;
 
 /// A bumpy, lopsided ball: it has no symmetry.
 Mesh lump(uint32_t subdivisions) {
@@ -140,6 +141,7 @@ TEST_CASE("a mesh that lies far off comes back, to the roundings of its coordina
   const Mesh mesh = lump(3);
   Random random(5);
   for (const double distance : {1e6, 1e9}) {
+    if (kIsSanitized && distance < 1e9) continue;
     const Mesh posed = in_any_pose(mesh, random, distance);
     CHECK(most_off(found(posed, mesh).matrix, posed, mesh) < 4e-15 * distance);
     const Mesh both = translated(mesh, {distance, 0, -distance});
@@ -251,6 +253,7 @@ TEST_CASE("a mirror image is told, scanned or not") {
       CHECK(*alignment.fit.mirrored < 1e-3);
     }
   }
+  if (kIsSanitized) return;
   const Mesh scan = in_any_pose(mirror_image(noisy(twisted_lump(5), 0.01, 3)), random, 5);
   CHECK(found(scan, twisted_lump(4)).fit.mirrored);
 }
@@ -271,7 +274,7 @@ TEST_CASE("what is no mirror image, or its own, is not told") {
       {cube(0.5), part()},
       {mirror_image(joined(cube(0.5), translated(cube(0.1), {0.5, 0, 0}))),
        joined(cube(0.5), translated(cube(0.1), {0.5, 0, 0}))}};
-  for (size_t i = 0; i < pairs.size(); ++i) {
+  for (size_t i = 0; i < (kIsSanitized ? 2 : pairs.size()); ++i) {
     CAPTURE(i);
     CHECK_FALSE(found(in_any_pose(pairs[i].first, random, 3), pairs[i].second).fit.mirrored);
   }
@@ -282,7 +285,7 @@ TEST_CASE("the same meshes give the same bits, prepared or not") {
   const Mesh posed = translated(rotated(mesh, {1, 2, 3}, 2), {4, 5, 6});
   const Alignment first = found(noisy(posed, 0.01, 1), mesh);
   const PreparedMesh b = solver().prepare(mesh);
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < (kIsSanitized ? 1 : 3); ++i) {
     const Alignment again = align(solver(), noisy(posed, 0.01, 1), b);
     CHECK(again.matrix == first.matrix);
     CHECK(again.fit == first.fit);

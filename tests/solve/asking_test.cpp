@@ -45,7 +45,7 @@ TEST_CASE("its answer is that of the steps") {
   question.statistics = true;
   question.certificate = true;
   question.verify = true;
-  question.budget.effort = 20000;
+  question.budget.effort = 5000;
   Solver* const solvers[] = {&on.solver};
   const Asking asking(question, on.a, on.b, solvers);
   const Answer found = asking.answer();

@@ -8,6 +8,7 @@
 
 #include "host/base/parallel.h"
 #include "tests/shapes/adversarial.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/exact.h"
 #include "vkhausdorff/error.h"
@@ -17,11 +18,7 @@ using namespace vkh::test;
 
 namespace {
 
-#ifdef VKH_SANITIZED
-constexpr size_t kPointsOfMesh = 60;
-#else
-constexpr size_t kPointsOfMesh = 1500;
-#endif
+constexpr size_t kPointsOfMesh = kIsSanitized ? 60 : 1500;
 
 Mesh one_point(const glm::dvec3& at) { return make_mesh("point", {at}, {{0, 0, 0}}); }
 

@@ -22,8 +22,8 @@ namespace {
 const double kDistance = v_lid_distance();  // of the lid from the sheet
 
 /// Two tori that are nowhere alike: some levels of work.
-Mesh large() { return torus(1, 0.25, 120, 80); }
-Mesh larger() { return torus(1, 0.26, 110, 90); }
+Mesh large() { return torus(1, 0.25, 60, 40); }
+Mesh larger() { return torus(1, 0.26, 55, 45); }
 
 bool encloses(const Report& r, double distance) {
   return r.lower <= distance && distance <= r.upper;

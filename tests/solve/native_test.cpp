@@ -14,6 +14,7 @@
 
 #include "host/base/float_environment.h"
 #include "tests/shapes/hard_pairs.h"
+#include "tests/support/sanitized.h"
 #include "tests/verification/oracle/exact.h"
 #include "tests/verification/oracle/reference_solver.h"
 #include "vkhausdorff/report.h"
@@ -103,7 +104,7 @@ bool same(const NativeReport& x, const NativeReport& y) {
 TEST_CASE("generated pairs: the interval meets the reference and exact distances") {
   const std::vector<std::string> families = family_names();
   uint64_t wrong = 0, closed = 0, limited = 0, noticed = 0;
-  const uint64_t count = count_of(400);
+  const uint64_t count = count_of(kIsSanitized ? 80 : 400);
   for (uint64_t i = 0; i < count; ++i) {
     const size_t family = i % families.size();
     const uint64_t seed = Random(0x67u * 0x9e3779b97f4a7c15u + i).bits();
