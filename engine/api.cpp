@@ -596,6 +596,16 @@ void vkhCmdFindSurveySides(VkhContext context, VkCommandBuffer commandBuffer,
   vkh::record_survey_sides(rec, call.p, call.streams, *sides);
 }
 
+void vkhCmdFindSurveyNormals(VkhContext context, VkCommandBuffer commandBuffer,
+                             const VkhProblem* problem, const VkhSurvey* survey,
+                             const VkhSurveyNormals* normals) {
+  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+                             uint64_t{normals->first} + normals->count);
+  if (!call.records() || normals->count == 0) return;
+  vkh::Recorder rec(*context, commandBuffer, nullptr);
+  vkh::record_survey_normals(rec, call.p, call.streams, *normals);
+}
+
 void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
                             const VkhProblem* problem, const VkhSurvey* survey,
                             const VkhSurveyFaces* faces) {

@@ -122,6 +122,9 @@ void record_survey_tally(Recorder& rec, const Problem& p, const SurveyStreams& s
 // Finds the sides of cells.
 void record_survey_sides(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveySides& sides);
+// Finds how normals agree on cells.
+void record_survey_normals(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                           const VkhSurveyNormals& normals);
 // Copies what each face reaches, and then what none of its points exceeds.
 void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyFaces& faces);

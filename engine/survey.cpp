@@ -20,6 +20,7 @@ struct SurveyGiven : RunBuffers {
         classes(s.classes),
         keys(s.keys),
         parents(s.parents),
+        agreements(s.agreements),
         blocks(s.blocks),
         histogram(s.histogram),
         plan(s.plan),
@@ -30,6 +31,7 @@ struct SurveyGiven : RunBuffers {
   Slice<gpu::CellBounds> bounds;
   Slice<gpu::Wide> weights;
   Slice<uint32_t> faces_reached, faces_told, classes, keys, parents;
+  Slice<gpu::CellAgreement> agreements;
   Slice<gpu::SurveyCounts> blocks;
   Slice<uint32_t> histogram;
   Slice<gpu::SurveyPlan> plan;
@@ -137,6 +139,27 @@ void record_survey_sides(Recorder& rec, const Problem& p, const SurveyStreams& s
   rec.run<k::SurveySides>(given, Items{sides.count});
 }
 
+void record_survey_normals(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                           const VkhSurveyNormals& normals) {
+  const auto scope = rec.scope("survey normals");
+  struct Given : SurveyGiven<gpu::SurveyNormalsPush> {
+    using SurveyGiven::SurveyGiven;
+    Slice<gpu::FaceNormal> normals;
+  };
+  Given given(p, survey,
+              gpu::SurveyNormalsPush{.first = normals.first,
+                                     .end = normals.first + normals.count,
+                                     .face_count = p.face_count,
+                                     .triangle_count = p.b.face_count,
+                                     .moved = normals.moved,
+                                     .limit_down = normals.limitDown,
+                                     .limit_up = normals.limitUp});
+  given.normals = {
+      normals.normalBuffer, normals.normalOffset,
+      (VkDeviceSize{p.face_count} + VkDeviceSize{p.b.face_count}) * sizeof(gpu::FaceNormal)};
+  rec.run<k::SurveyNormals>(given, Items{normals.count});
+}
+
 // Copies what is told of each face to the caller's buffer. What a face reached before its cells
 // were split is kept.
 void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& survey,
@@ -186,6 +209,7 @@ void record_survey_move(Recorder& rec, const SurveyStreams& from, const SurveySt
   rec.copy(first_of(from.cells, cells), to.cells, Order::kIndependent);
   rec.copy(first_of(from.bounds, cells), to.bounds, Order::kIndependent);
   rec.copy(first_of(from.classes, cells), to.classes, Order::kIndependent);
+  rec.copy(first_of(from.agreements, cells), to.agreements, Order::kIndependent);
   rec.copy(first_of(from.keys, cells), to.keys, Order::kIndependent);
 }
 

@@ -131,6 +131,19 @@ VKH_API void vkhCmdFindSurveySides(VkhContext context, VkCommandBuffer commandBu
                                    const VkhProblem* problem, const VkhSurvey* survey,
                                    const VkhSurveySides* sides);
 
+typedef struct VkhSurveyNormals {
+  uint32_t first, count; /* of the cells */
+  float moved; /* both meshes' vertices together may be so far from where they are stored */
+  float limitDown, limitUp; /* normals agree from a cosine between them on */
+  VkBuffer normalBuffer;    /* FaceNormal[faces of A and of B]; usage STORAGE_BUFFER */
+  VkDeviceSize normalOffset;
+} VkhSurveyNormals;
+/* Compares A's normal with those of B's closest faces, on cells where that was not done: for
+ * tallies and scores with SurveyPlan::of_normals. It replaces the cells' class. */
+VKH_API void vkhCmdFindSurveyNormals(VkhContext context, VkCommandBuffer commandBuffer,
+                                     const VkhProblem* problem, const VkhSurvey* survey,
+                                     const VkhSurveyNormals* normals);
+
 typedef struct VkhSurveyFaces {
   uint32_t cells;          /* that there are */
   uint32_t reachedClasses; /* a bit for each class of cells */

@@ -248,7 +248,9 @@ VKH_CONST uint kClassEdge = 4u;        // faces that may be closest somewhere on
 VKH_CONST uint kClassDegenerate = 5u;  // a segment or a point may be closest
 VKH_CONST uint kClassTwoSided = 6u;    // a face may be closest that lies on an opposite one
 VKH_CONST uint kClassMany = 7u;        // more faces may be closest than are looked at
-VKH_CONST uint kAllClasses = 0xffu;    // a set of classes has a bit for each
+// Or whether B's normals were compared with A's there.
+VKH_CONST uint kClassCompared = 8u;
+VKH_CONST uint kAllClasses = 0x1ffu;  // a set of classes has a bit for each
 // What a side has to know of a face of B.
 VKH_CONST uint kFaceCovered = 1u;   // a segment or a point of other faces
 VKH_CONST uint kFaceBare = 2u;      // a segment or a point that is of no other face
@@ -482,6 +484,20 @@ struct CellBounds {
   uint triangle;                // the same in the BVH's order
 };
 
+// How A's normal agrees with those of B's closest faces, over a cell: the mean of |cos| of the
+// angle between them lies in [least, most], and the share on which they agree in [sure, may].
+struct CellAgreement {
+  float least, most;
+  float sure, may;
+};
+
+// A face's unit normal. Corners of one number lie at one place, as they were given.
+struct FaceNormal {
+  vec3 along;
+  float off;      // so far may the exact one be from it; 1: the face has none
+  uvec3 corners;  // of a face of B
+};
+
 // An integer of 64 bits.
 struct Wide {
   uint low, high;
@@ -495,7 +511,10 @@ struct SurveyEdge {
 // The host's questions to a survey's cells. The edges ascend, in both members.
 struct SurveyPlan {
   uint edge_count, open_count;
-  uint moments;        // 1: a tally adds up means and mean squares, too
+  uint moments;  // 1: a tally adds up means and mean squares, too
+  // 1: areas count where normals agree, means are of cosines, and cells whose distances are known
+  // score, too.
+  uint of_normals;
   float of_whole;      // 1 over the weight of all faces
   float mean, square;  // what a width of the mean, and of the mean square, scores; 0: nothing
   uint classes;        // of the cells that a tally counts
@@ -704,6 +723,15 @@ struct SurveySidesPush {
   float moved;          // vertices may be so far from where they are stored, those of A and of B
   uint is_solid;        // B winds `front` times round all points in front of it,
   int front;            // and one time more or less round all others
+};
+
+// survey_normals
+struct SurveyNormalsPush {
+  uint first, end;             // the cells from the first one to the one before the end
+  uint face_count;             // of A
+  uint triangle_count;         // of B
+  float moved;                 // vertices may be so far from where they are stored
+  float limit_down, limit_up;  // normals agree from this cosine on
 };
 
 // survey_faces

@@ -13,6 +13,7 @@ BARY = "shaders/math/bary.h"
 DYADIC = "shaders/math/dyadic.h"
 CELL = "shaders/report/cell.h"
 SIDE = "shaders/report/side.h"
+NORMAL = "shaders/report/normal.h"
 PARTS = "shaders/math/parts.h"
 WIDE = "shaders/survey/wide.h"
 TALLY = "shaders/survey/tally.h"
@@ -37,6 +38,7 @@ ON_CELL = ["lib_cell_model_test", "lib_cell_test"]
 ON_PARTS = ["lib_parts_model_test", "lib_parts_test"]
 ON_TALLY = ["lib_tally_test"]
 ON_SIDE = ["lib_side_test"]
+ON_NORMAL = ["lib_normal_test"]
 ON_LOWER = ["lib_attack_test", "lib_lower_test", "lib_model_test"]
 ON_FRAME = ["frame_test"]
 ON_LENGTH = ["diagonal_test"]
@@ -215,6 +217,41 @@ ROWS = [
     row("may_be_closest's move", SIDE, "minorant_off(t, s) + 2.0f * moved", ["minorant_off(t, s) + moved", "minorant_off(t, s)"], ON_SIDE),
     row("is_off's move", SIDE, "lowest > round_up(moved, 4.0f)", ["lowest >= moved", "lowest > 0.0f"], ON_SIDE),
     row("class_with's other side", SIDE, "(before != kClassUnseen && before != now)", ["false"], ON_SIDE),
+
+    row("surely_within's share", TALLY, "(within - (1.0f - b.sure)) - 2.0f * kUlp", ["within - (1.0f - b.sure)", "within"], ON_TALLY),
+    row("perhaps_within's share", TALLY, "min(share_within(b.below, up).up, b.may)", ["share_within(b.below, up).up"], ON_TALLY),
+    row("counts_down's share", TALLY, "return share_down(w, b.sure);", ["return w.down;"], ON_TALLY),
+    row("counts_up's share", TALLY, "return share_up(w, b.may);", ["return share_down(w, b.may);"], ON_TALLY),
+    row("counts_to's cells", TALLY, "choose(b.sure == 1.0f, b.highest, 3.0e38f)", ["b.highest"], ON_TALLY),
+    row("with_normals' cells", SCORE, "if (of_class != kClassCompared) {", ["if (of_class == kClassUnseen) {"], ON_TALLY),
+
+    # normal.h
+    row("cosine_between's first normal", NORMAL, "(m_off + (1.0f + m_off) * n_off)", ["n_off"], ON_NORMAL),
+    row("cosine_between's second normal", NORMAL, "(m_off + (1.0f + m_off) * n_off)", ["m_off"], ON_NORMAL),
+    row("cosine_between's rounding", NORMAL, "+ 6.0f * kUlp, 4.0f)", [", 4.0f)"], ON_NORMAL),
+    row("sign_along's point", NORMAL, "2.0f * off * (far + length + 2.0f * off)", ["2.0f * off * far"], ON_NORMAL),
+    row("sign_along's edge", NORMAL, "2.0f * off * (far + length + 2.0f * off)", ["2.0f * off * length", "0.0f"], ON_NORMAL),
+    row("sign_along's rounding", NORMAL, "turned + 6.0f * kUlp * far * length", ["turned"], ON_NORMAL),
+    row("is_over_edge's rounding", NORMAL, "16.0f * kUlp * far * length * length * width", ["0.0f"], ON_NORMAL),
+    row("is_over_edge's point", NORMAL, "(most_length * most_width + 2.0f * most_far", ["(2.0f * most_far"], ON_NORMAL),
+    row("is_over_edge's edge", NORMAL, "2.0f * most_far * most_width +", ["0.5f * most_far * most_width +", ""], ON_NORMAL),
+    row("is_over_edge's third corner", NORMAL, "+ most_far * most_length)", [")"], ON_NORMAL),
+    row("closest_feature's triangle", NORMAL, "round_up(s.slack + t.slack + moved, 2.0f)", ["round_up(t.slack + moved, 2.0f)"], ON_NORMAL),
+    row("closest_feature's cell", NORMAL, "round_up(s.slack + t.slack + moved, 2.0f)", ["round_up(s.slack + moved, 2.0f)"], ON_NORMAL),
+    row("closest_feature's move", NORMAL, "round_up(s.slack + t.slack + moved, 2.0f)", ["round_up(s.slack + t.slack, 2.0f)"], ON_NORMAL),
+    row("closest_feature's other side", NORMAL, "to_next < 0 && cell_along(t, p, r, off) < 0", ["to_next < 0"], ON_NORMAL),
+    row("closest_feature's other end", NORMAL, "to_next > 0 && cell_along(t, q, p, off) > 0", ["to_next > 0"], ON_NORMAL),
+    row("closest_feature's edge", NORMAL, "is_between && is_cell_over_edge(t, p, q, r, off)", ["is_between"], ON_NORMAL),
+    row("has_corners' bits", NORMAL, "both(has_a, both(has_b, has_c))", ["both(has_a, has_b)", "has_c"], ON_NORMAL),
+    row("closest_share's excess", NORMAL, "vec3(lowered(x.x), lowered(x.y), lowered(x.z))), 0.0f).up", ["vec3(lowered(x.x), lowered(x.y), lowered(x.z))), 0.0f).up * 0.999f"], ON_NORMAL),
+    row("more_by's sum", NORMAL, "raised(x + raised(share * raised(value)))", ["x + share * value"], ON_NORMAL),
+    row("with_face's loss", NORMAL, "max(c.high - counts, 0.0f)", ["max(0.99f * c.high - counts, 0.0f)"], ON_NORMAL),
+    row("with_face's gain", NORMAL, "of.most - c.low", ["of.least - c.low"], ON_NORMAL),
+    row("with_face's doubt", NORMAL, "counts < limit_up", ["of.most < limit_up", "counts < 0.99f * limit_up"], ON_NORMAL),
+    row("with_face's share", NORMAL, "of.most >= limit_down", ["counts >= limit_down", "of.most >= 1.01f * limit_down"], ON_NORMAL),
+    row("agreement_of's least", NORMAL, "max(c.least, lowered(c.high - c.loss))", ["max(c.low, c.high - 0.99f * c.loss)"], ON_NORMAL),
+    row("agreement_of's most", NORMAL, "min(c.high, raised(c.low + c.gain))", ["min(c.high, c.low + 0.99f * c.gain)"], ON_NORMAL),
+    row("agreement_of's doubt", NORMAL, "choose(c.doubtful > 0.0f, max(lowered(1.0f - c.doubtful), 0.0f), 1.0f)", ["max(1.0f - 0.99f * c.doubtful, 0.0f)"], ON_NORMAL),
 
     # parts.h
     counts("shortened", PARTS, "1.0f - {8.0f} * kUlp, norm_up(r)", ON_PARTS, steps=[4.0, 0.0, -32.0]),

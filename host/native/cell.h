@@ -6,6 +6,7 @@
 #include "host/native/face_tree.h"
 #define float double
 #include "shaders/report/cell.h"
+#include "shaders/report/normal.h"
 #include "shaders/report/side.h"
 #undef float
 

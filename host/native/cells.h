@@ -29,6 +29,12 @@ struct Nearby {
   }
 };
 
+/// The normals of A's faces, and then of B's, and how they are compared.
+struct NormalsGiven {
+  std::span<const gpu::FaceNormal> normals;
+  gpu::SurveyNormalsPush push;
+};
+
 /// A pair in its frame, of whose A cells can be bounded. Threads may share it.
 class PlacedPair {
  public:
@@ -50,6 +56,9 @@ class PlacedPair {
   uint32_t side_class(const gpu::Cell& cell, const gpu::CellBounds& bounds,
                       const gpu::SurveySidesPush& search,
                       std::span<const uint32_t> face_kinds) const;
+  /// Compares normals on a cell with these bounds, as survey_normals.comp does.
+  gpu::CellAgreement agreement(const gpu::Cell& cell, const gpu::CellBounds& bounds,
+                               const NormalsGiven& given) const;
 
  private:
   std::unique_ptr<const Problem> problem_;

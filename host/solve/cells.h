@@ -71,6 +71,13 @@ struct SideSearch {
   float moved = 0;  ///< so far may both meshes' vertices together be from where they are stored
 };
 
+/// Tells a comparison of normals what it has to know of both meshes.
+struct NormalSearch {
+  std::span<const gpu::FaceNormal> normals;  ///< of A's faces, and then of B's
+  float moved = 0;  ///< so far may both meshes' vertices together be from where they are stored
+  float limit_down = 0, limit_up = 1;  ///< normals agree from a cosine between them on
+};
+
 /// Cells, one entry each.
 struct CellsRead {
   std::vector<gpu::Cell> cells;
@@ -104,6 +111,10 @@ class SurveyCells {
   /// Finds the sides of some cells that have none yet and are farther than `above` somewhere, in
   /// the frame. Parts of a cell have its side.
   virtual void find_sides(const SideSearch& search, float above, const CellRange& some) = 0;
+  /// Takes the normals of both meshes, which outlive what follows, for find_normals().
+  virtual void begin_normals(const NormalSearch& search) = 0;
+  /// Compares normals on those of some cells where that was not done, which lose their sides.
+  virtual void find_normals(const CellRange& some) = 0;
   /// Returns, of each face of A, a distance that some point of its cells of the one set of classes
   /// reaches, and then, of each, one that none of the other set exceeds; 0 if it has none.
   virtual std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes) = 0;

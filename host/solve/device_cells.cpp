@@ -161,6 +161,27 @@ void DeviceCells::find_sides(const SideSearch& search, float above, const CellRa
   submit();
 }
 
+void DeviceCells::begin_normals(const NormalSearch& search) {
+  normals_ = search;
+  grow(buffers_.normals, device_, search.normals.size_bytes(), kBound);
+  copy_together(buffers_.normals.mapped(), search.normals.data(), search.normals.size_bytes());
+}
+
+void DeviceCells::find_normals(const CellRange& some) {
+  waiting_.push_back([this, some](VkCommandBuffer commands) {
+    const VkhSurvey survey = view();
+    const VkhSurveyNormals normals{some.first,
+                                   some.count,
+                                   normals_.moved,
+                                   normals_.limit_down,
+                                   normals_.limit_up,
+                                   buffers_.normals.handle(),
+                                   0};
+    vkhCmdFindSurveyNormals(context_, commands, &problem_, &survey, &normals);
+  });
+  submit();
+}
+
 std::vector<float> DeviceCells::faces(uint32_t reached_classes, uint32_t highest_classes) {
   std::vector<float> faces(2 * size_t{problem_.a.faceCount});
   grow(buffers_.faces, device_, faces.size() * sizeof(float), kRead);

@@ -16,7 +16,8 @@ struct SurveyBuffers {
   Buffer weights, plan;            // written by the host
   Buffer histogram, table, faces;  // read by it,
   Buffer cells, bounds, classes;   // and these if it takes over
-  Buffer face_kinds, known;        // of B, and bounds that it found: written by it
+  Buffer face_kinds, normals;      // of both meshes: written by it,
+  Buffer known;                    // and bounds that it found
 };
 
 class DeviceCells : public SurveyCells {
@@ -38,6 +39,8 @@ class DeviceCells : public SurveyCells {
   const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit,
                                 const CellRange& some) override;
   void find_sides(const SideSearch& search, float above, const CellRange& some) override;
+  void begin_normals(const NormalSearch& search) override;
+  void find_normals(const CellRange& some) override;
   std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes) override;
   CellsRead read(const CellRange& some) override;
   void write(const CellRange& some, std::span<const gpu::CellBounds> bounds) override;
@@ -58,6 +61,7 @@ class DeviceCells : public SurveyCells {
   std::vector<Record> waiting_;  // for the next submission
   uint32_t capacity_ = 0, count_ = 0;
   VkhSurveyBound fresh_{};  // the new cells
+  NormalSearch normals_;
 };
 
 }  // namespace vkh

@@ -33,10 +33,18 @@ gpu::Wide wide_of(uint64_t x) {
 }
 uint64_t whole_of(const glm::uvec2& x) { return uint64_t{x.y} << 32 | x.x; }
 
-// As survey_score.comp has it.
-float score_of(const gpu::CellBounds& bounds, uint32_t of_class, const gpu::SurveyPlan& plan) {
-  if (!(plan.mean > 0 || plan.square > 0 || plan.open_count > 0)) return 0;
+// As survey_score.comp and survey_tally.comp have it.
+lib::TallyBounds bounds_of(const gpu::CellBounds& bounds, uint32_t of_class,
+                           const gpu::CellAgreement& found, const gpu::SurveyPlan& plan) {
   const lib::TallyBounds b = lib::tally_bounds(bounds);
+  return plan.of_normals != 0 ? lib::with_normals(b, found, of_class) : b;
+}
+
+// As survey_score.comp has it.
+float score_of(const gpu::CellBounds& bounds, uint32_t of_class, const gpu::CellAgreement& found,
+               const gpu::SurveyPlan& plan) {
+  if (!(plan.mean > 0 || plan.square > 0 || plan.open_count > 0)) return 0;
+  const lib::TallyBounds b = bounds_of(bounds, of_class, found, plan);
   const lib::TallyBounds kept = lib::within_most(b, plan.most);
   float score = 0;
   if (plan.mean > 0 && lib::is_among(of_class, plan.mean_classes)) {
@@ -58,13 +66,15 @@ class Sums {
       : plan_(plan), edges_(plan.edges, plan.edge_count), unit_(unit) {}
 
   void add(uint32_t place, const gpu::Cell& cell, const gpu::CellBounds& bounds,
-           const gpu::Wide& of_face) {
+           const gpu::Wide& of_face, uint32_t of_class, const gpu::CellAgreement& found) {
     const lib::CellWeight w =
         lib::cell_weight({of_face.low, of_face.high}, lib::halvings_of(corners_of(cell)));
-    Bounded b{bounds};
+    Bounded b{bounds, of_class, found, plan_};
     if (plan_.moments != 0) add_moments(lib::within_most(b.all(), plan_.most), w);
-    highest_ = std::max(highest_, lib::bits_of(bounds.highest));
-    not_lowest_ = std::max(not_lowest_, ~lib::bits_of(lib::lowest_of(bounds)));
+    const float to = b.is_whole() ? bounds.highest : lib::counts_to(b.all());
+    const float from = b.is_whole() ? lib::lowest_of(bounds) : lib::counts_from(b.all());
+    highest_ = std::max(highest_, lib::bits_of(to));
+    not_lowest_ = std::max(not_lowest_, ~lib::bits_of(from));
     reached_ = std::max(reached_, lib::bits_of(bounds.reached));
     if (bounds.reached >= plan_.far) not_far_ = std::max(not_far_, ~place);
     add_surely_within(b, w);
@@ -91,12 +101,17 @@ class Sums {
   /// Makes a cell's bounds for the tally where they are needed first: an edge may cut no cell.
   struct Bounded {
     const gpu::CellBounds& bounds;
+    const uint32_t of_class;
+    const gpu::CellAgreement& found;
+    const gpu::SurveyPlan& plan;
     std::optional<lib::TallyBounds> made = {};
 
     const lib::TallyBounds& all() {
-      if (!made) made = lib::tally_bounds(bounds);
+      if (!made) made = bounds_of(bounds, of_class, found, plan);
       return *made;
     }
+    // All of the cell counts, but where normals are compared.
+    bool is_whole() const { return plan.of_normals == 0; }
   };
 
   void add(size_t at, const glm::uvec2& x) { sums_[at] += whole_of(x); }
@@ -107,7 +122,8 @@ class Sums {
     const float least = std::min({c.upper_a, c.upper_b, c.upper_c});
     for (size_t k = first_edge(&gpu::SurveyEdge::down, least); k < edges_.size(); ++k) {
       const float down = edges_[k].down;
-      if (down >= c.highest) return add(gpu::kSurelyWhole + k, w.down);
+      if (down >= c.highest)
+        return add(gpu::kSurelyWhole + k, b.is_whole() ? w.down : lib::counts_down(w, b.all()));
       add(gpu::kSurelyPart + k, lib::share_down(w, lib::surely_within(b.all(), down)));
     }
   }
@@ -118,7 +134,8 @@ class Sums {
     const float most = std::max({c.lower_a, c.lower_b, c.lower_c});
     for (size_t k = first_edge(&gpu::SurveyEdge::up, least); k < edges_.size(); ++k) {
       const float up = edges_[k].up;
-      if (up >= most) return add(gpu::kPerhapsWhole + k, w.up);
+      if (up >= most)
+        return add(gpu::kPerhapsWhole + k, b.is_whole() ? w.up : lib::counts_up(w, b.all()));
       add(gpu::kPerhapsPart + k, lib::share_up(w, lib::perhaps_within(b.all(), up)));
     }
   }
@@ -159,6 +176,7 @@ void NativeCells::begin(std::span<const uint64_t> weights, float farthest) {
   bounds_.assign(faces, unknown_bounds(farthest));
   near_.assign(faces, {});
   classes_.assign(faces, gpu::kClassUnseen);
+  agreements_.resize(faces);
   gpu::Cell whole{};
   set_corners(whole, lib::whole_root());
   whole.start = gpu::kNone;
@@ -178,8 +196,9 @@ uint32_t NativeCells::score_one(const gpu::SurveyPlan& plan, uint32_t place, boo
           : lib::face_score(b.highest, reached_[cell.face], plan.face_tolerance,
                             plan.face_within[lib::side_index(classes_[place])], plan.face_beyond);
   is_stuck = of_face > 0;
-  if (b.highest - lib::lowest_of(b) <= lib::kScoreFloor) return 0;
-  float score = score_of(b, classes_[place], plan);
+  const bool is_known = b.highest - lib::lowest_of(b) <= lib::kScoreFloor;
+  if (is_known && plan.of_normals == 0) return 0;
+  float score = score_of(b, classes_[place], agreements_[place], plan);
   const float of_map = lib::map_score(b, plan.map_step, plan.map_most);
   if (!(score > 0) && !(of_map > 0) && !(of_face > 0)) return 0;
   const lib::Bary3 at = corners_of(cell);
@@ -226,11 +245,13 @@ bool NativeCells::split(const SurveyChoice& choice) {
     bounds_.resize(after);
     near_.resize(after);
     classes_.resize(after);
+    agreements_.resize(after);
     cells_.resize(after);
   } catch (const std::bad_alloc&) {
     bounds_.resize(before);
     near_.resize(before);
     classes_.resize(before);
+    agreements_.resize(before);
     return false;
   }
   parts_ = choice.parts;
@@ -314,7 +335,8 @@ const gpu::SurveyTable& NativeCells::tally(const gpu::SurveyPlan& plan, int unit
     Sums some(plan, unit);
     for (size_t i = begin; i < end; ++i) {
       if (lib::is_among(classes_[i], plan.classes))
-        some.add(static_cast<uint32_t>(i), cells_[i], bounds_[i], weights_[cells_[i].face]);
+        some.add(static_cast<uint32_t>(i), cells_[i], bounds_[i], weights_[cells_[i].face],
+                 classes_[i], agreements_[i]);
     }
     const std::lock_guard lock(adding);
     all.add(some);
@@ -336,6 +358,24 @@ void NativeCells::find_sides(const SideSearch& search, float above, const CellRa
     for (size_t i = begin; i < end; ++i) {
       if (classes_[i] != gpu::kClassUnseen || !(bounds_[i].highest > above)) continue;
       classes_[i] = pair_.side_class(cells_[i], bounds_[i], asked, search.face_kinds);
+    }
+  });
+}
+
+void NativeCells::find_normals(const CellRange& some) {
+  const native::NormalsGiven given{normals_.normals,
+                                   {.first = some.first,
+                                    .end = some.first + some.count,
+                                    .face_count = static_cast<uint32_t>(a_.faces.size()),
+                                    .triangle_count = 0,
+                                    .moved = normals_.moved,
+                                    .limit_down = normals_.limit_down,
+                                    .limit_up = normals_.limit_up}};
+  in_pieces(some, kBoundedOfPiece, threads_, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      if (classes_[i] == gpu::kClassCompared) continue;
+      agreements_[i] = pair_.agreement(cells_[i], bounds_[i], given);
+      classes_[i] = gpu::kClassCompared;
     }
   });
 }

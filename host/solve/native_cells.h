@@ -18,8 +18,9 @@ class NativeCells : public SurveyCells {
   NativeCells(const native::PlacedPair& pair, const Mesh& a, size_t threads, size_t most);
 
   /// The memory that a cell takes, while a vector of them grows.
-  static constexpr size_t kBytesOfCell = 2 * (sizeof(gpu::Cell) + sizeof(gpu::CellBounds) +
-                                              sizeof(native::Nearby) + 2 * sizeof(uint32_t));
+  static constexpr size_t kBytesOfCell =
+      2 * (sizeof(gpu::Cell) + sizeof(gpu::CellBounds) + sizeof(native::Nearby) +
+           2 * sizeof(uint32_t) + sizeof(gpu::CellAgreement));
 
   void begin(std::span<const uint64_t> weights, float farthest) override;
   size_t count() const override { return cells_.size(); }
@@ -30,6 +31,8 @@ class NativeCells : public SurveyCells {
   const gpu::SurveyTable& tally(const gpu::SurveyPlan& plan, int unit,
                                 const CellRange& some) override;
   void find_sides(const SideSearch& search, float above, const CellRange& some) override;
+  void begin_normals(const NormalSearch& search) override { normals_ = search; }
+  void find_normals(const CellRange& some) override;
   std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes) override;
   CellsRead read(const CellRange& some) override;
   void write(const CellRange& some, std::span<const gpu::CellBounds> bounds) override;
@@ -52,11 +55,13 @@ class NativeCells : public SurveyCells {
   std::vector<gpu::CellBounds> bounds_;
   std::vector<native::Nearby> near_;
   std::vector<uint32_t> classes_;
-  std::vector<uint32_t> keys_;     // bins of scores
-  std::vector<uint32_t> parents_;  // that were split last
+  std::vector<gpu::CellAgreement> agreements_;  // where normals were asked for
+  std::vector<uint32_t> keys_;                  // bins of scores
+  std::vector<uint32_t> parents_;               // that were split last
   std::vector<uint32_t> counts_;
   std::vector<float> reached_;  // of faces
   gpu::SurveyTable table_;
+  NormalSearch normals_;
   uint32_t parts_ = 1, live_ = 0;  // of each parent; the cells before
 };
 

@@ -10,13 +10,17 @@
 
 namespace vkh {
 
+inline constexpr double kAnyDistance = 3e38;  ///< a float: none is farther
+
 /// Asks for the share of A's area within each threshold, and for moments, if a distance is given
 /// beyond which one counts as 0.
 struct Tally {
   std::span<const Threshold> at;
   std::optional<Threshold> moments = {};
-  uint32_t classes = gpu::kAllClasses;  ///< of the cells that count
-  float far = 3e38f;                    ///< the first cell that reaches it is wanted
+  uint32_t classes = gpu::kAllClasses;           ///< of the cells that count
+  float far = static_cast<float>(kAnyDistance);  ///< the first cell that reaches it is wanted
+  /// The share is of what is within and has normals that agree, and the mean is of their cosines.
+  bool of_normals = false;
 };
 
 /// Tells what cells prove of the distances over A, in the frame.

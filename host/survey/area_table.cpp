@@ -9,8 +9,6 @@
 namespace vkh {
 namespace {
 
-constexpr double kFarthest = 3e38;  // a float
-
 // Covers an integer of 64 bits as a double, which is off by 2^-53, and the few sums, products and
 // quotients of one sign that it goes through.
 constexpr double kLess = 1 - 0x1p-49, kMore = 1 + 0x1p-49;
@@ -76,18 +74,19 @@ TallyEdges edges_of(std::span<const Threshold> thresholds) {
 }
 
 gpu::SurveyEdge edge_of(const Threshold& at) {
-  return {-least_float_above(-std::min(at.down, kFarthest)),
-          least_float_above(std::min(at.up, kFarthest))};
+  return {-least_float_above(-std::min(at.down, kAnyDistance)),
+          least_float_above(std::min(at.up, kAnyDistance))};
 }
 
-gpu::SurveyPlan plan_of(const TallyEdges& at, const std::optional<Threshold>& moments) {
+gpu::SurveyPlan plan_of(const TallyEdges& at, const Tally& asked) {
   gpu::SurveyPlan plan{};
   plan.edge_count = static_cast<uint32_t>(at.edges.size());
   std::copy(at.edges.begin(), at.edges.end(), std::begin(plan.edges));
-  plan.classes = gpu::kAllClasses;
-  plan.far = 3e38f;
-  plan.moments = moments ? 1 : 0;
-  if (moments) plan.most = edge_of(*moments);
+  plan.classes = asked.classes;
+  plan.far = asked.far;
+  plan.moments = asked.moments ? 1 : 0;
+  plan.of_normals = asked.of_normals ? 1 : 0;
+  if (asked.moments) plan.most = edge_of(*asked.moments);
   return plan;
 }
 
@@ -139,7 +138,12 @@ void AreaTable::tell(const Tally& asked, Tallied& all) const {
   const bool are_all = asked.classes == gpu::kAllClasses;
   for (const TallyEdges::Places& at : at_.of)
     all.shares.push_back(all.is_empty ? Enclosure{} : share(at, are_all));
-  if (asked.moments) all.moments = moments(*asked.moments);
+  if (asked.of_normals) {
+    all.moments = moments(1);
+    all.moments.mean.upper = std::min(all.moments.mean.upper, 1.0);
+  } else if (asked.moments) {
+    all.moments = moments(std::min(highest(), std::max(asked.moments->up, 0.0)));
+  }
   if (all.is_empty) return;
   all.lowest = lowest();
   all.highest = highest();
@@ -160,9 +164,8 @@ double AreaTable::mean_up(uint32_t sum, double largest) const {
 }
 
 // No value that counts is above `most`: it may count on so much area as the areas are off by.
-Moments AreaTable::moments(const Threshold& most) const {
-  const double largest = std::min(highest(), std::max(most.up, 0.0)) / unit_,
-               square = largest * largest;
+Moments AreaTable::moments(double most) const {
+  const double largest = most / unit_, square = largest * largest;
   return {{unit_ * mean_down(gpu::kMeanLower, largest), unit_ * mean_up(gpu::kMeanUpper, largest)},
           {unit_ * kLess * std::sqrt(mean_down(gpu::kSquareLower, square)),
            unit_ * kMore * std::sqrt(mean_up(gpu::kSquareUpper, square))}};

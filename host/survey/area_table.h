@@ -37,14 +37,15 @@ TallyEdges edges_of(std::span<const Threshold> thresholds);
 /// A threshold in floats: its ends are no nearer.
 gpu::SurveyEdge edge_of(const Threshold& at);
 
-/// The plan of a tally at these edges; with moments, a distance beyond them counts as 0.
-gpu::SurveyPlan plan_of(const TallyEdges& at, const std::optional<Threshold>& moments);
+/// The plan of a tally at these edges.
+gpu::SurveyPlan plan_of(const TallyEdges& at, const Tally& asked);
 
 /// Adds what a tally says of other cells.
 void add_table(const gpu::SurveyTable& table, gpu::SurveyTable& sum);
 
-/// The unit of a tally: every distance is below 2^(unit - 127).
+/// The unit of a tally: every distance is below 2^(unit - 127), or every cosine.
 int tally_unit(float farthest);
+inline constexpr int kCosineUnit = 128;
 
 class AreaTable {
  public:
@@ -59,7 +60,7 @@ class AreaTable {
   double lowest() const;   // no distance is less,
   double highest() const;  // and none is more
   Enclosure share(const TallyEdges::Places& at, bool are_all) const;
-  Moments moments(const Threshold& most) const;
+  Moments moments(double most) const;
   double mean_down(uint32_t sum, double largest) const;
   double mean_up(uint32_t sum, double largest) const;
 

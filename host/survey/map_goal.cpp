@@ -153,10 +153,8 @@ gpu::SurveyPlan MapGoals::plan(double whole) const {
   return plan;
 }
 
-CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair,
+CellMap map_of(const CellsRead& all, const Areas& areas, const SurveyedPair& pair,
                const SurveyOptions& options) {
-  const CellStore& store = surface.store;
-  const Areas& areas = surface.areas;
   CellMap map;
   map.unit = pair.frame.length_down(1);
   map.least = least_width(pair);
@@ -165,14 +163,15 @@ CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair,
   const double open = pair.frame.to_frame(open_of(pair));
   map.slack = pair.frame.length_up(std::max(pair.displacement - open, 0.0));
   if (options.max_distance) map.max_distance = typed_length(*options.max_distance);
-  map.cells.resize(store.count());
-  for_each_block(store.count(), [&](size_t, size_t begin, size_t end) {
+  map.cells.resize(all.cells.size());
+  for_each_block(all.cells.size(), [&](size_t, size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const gpu::uvec4& c = store.cell(i).corners;
-      const double area = store.share(i) * areas.of_face[store.face(i)];
-      const lib::DrawnCell drawn = lib::drawn_of(store.bounds(i));
+      const auto& [c, face, start] = all.cells[i];
+      const auto halvings = static_cast<int>(lib::halvings_of(corners_of(all.cells[i])));
+      const double area = std::ldexp(areas.of_face[face], -halvings);
+      const lib::DrawnCell drawn = lib::drawn_of(all.bounds[i]);
       map.cells[i] = {.corners = {c.x, c.y, c.z, c.w},
-                      .face = store.face(i),
+                      .face = face,
                       .estimate = {drawn.at.x, drawn.at.y, drawn.at.z},
                       .width = static_cast<float>(static_cast<double>(drawn.off) + open),
                       .share = static_cast<float>(area / areas.whole)};

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "host/survey/cell_store.h"
+#include "host/solve/cells.h"
 #include "host/survey/lengths.h"
 #include "host/survey/wave_goals.h"
 
@@ -50,13 +50,9 @@ class MapGoals : public WaveGoals {
   bool is_nearly_met_ = false;
 };
 
-/// The surface that a map is of.
-struct SurveyedArea {
-  const CellStore& store;
-  const Areas& areas;
-};
 /// The map of all cells, which `options` ask for. A has an area, or is points.
-CellMap map_of(const SurveyedArea& surface, const SurveyedPair& pair, const SurveyOptions& options);
+CellMap map_of(const CellsRead& all, const Areas& areas, const SurveyedPair& pair,
+               const SurveyOptions& options);
 /// Adds the sides of the survey's cells, by their classes, to a map of all of them.
 void add_sides(std::span<const uint32_t> classes, CellMap& map);
 

@@ -5,8 +5,8 @@
 #include "host/base/parallel.h"
 #include "host/base/rounding.h"
 #include "host/mesh/round_to_float.h"
-#include "host/survey/cell_store.h"
 #include "host/survey/measured.h"
+#include "shaders/survey/score.h"
 
 namespace vkh {
 namespace {
@@ -56,7 +56,7 @@ gpu::CellBounds PointDistances::narrowed(uint32_t face, const gpu::CellBounds& b
   const double down = distance_below(*p, tree_, count, at, bounds.face);
   const double up = distance_above(*p, tree_, count, at, bounds.face);
   const float least =
-      std::max(lowest(bounds), float_down(std::max(add_down(down, -displacement_), 0.0)));
+      std::max(lib::lowest_of(bounds), float_down(std::max(add_down(down, -displacement_), 0.0)));
   const float most = std::min(bounds.highest, float_up(add_up(up, displacement_)));
   gpu::CellBounds narrow = bounds;
   narrow.lower_a = narrow.lower_b = narrow.lower_c = narrow.reached = least;
@@ -70,7 +70,7 @@ namespace {
 
 // Whether a point is not known as well as it is asked, or a cut lies between its bounds.
 bool matters(const gpu::CellBounds& b, const PointDistances::Asked& asked) {
-  const auto least = static_cast<double>(lowest(b)), most = static_cast<double>(b.highest);
+  const auto least = static_cast<double>(lib::lowest_of(b)), most = static_cast<double>(b.highest);
   if (!(most > least)) return false;
   return most - least > asked.least ||
          std::any_of(asked.cuts.begin(), asked.cuts.end(),

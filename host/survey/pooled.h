@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host/survey/distribution.h"
-#include "host/survey/goals.h"
 #include "host/survey/wave_goals.h"
 
 namespace vkh {

@@ -17,8 +17,6 @@ inline constexpr uint32_t kOverB = 1u << gpu::kClassOver, kUnderB = 1u << gpu::k
 /// too many faces stay in the way however small a cell is.
 inline constexpr uint32_t kMayGetSide = 1u << gpu::kClassMeets | 1u << gpu::kClassEdge;
 
-inline constexpr double kAnyDistance = 3e38;  ///< a float: none is farther
-
 class SignedDistances : public AreaDistances {
  public:
   /// Its cells have their sides. It outlives this.
@@ -40,7 +38,7 @@ class SignedDistances : public AreaDistances {
 
   WaveSurvey& waves_;
   SharesSeen shares_;
-  Enclosure mean_{-3e38, 3e38};
+  Enclosure mean_{-kAnyDistance, kAnyDistance};
   double plain_mean_ = 0;
 };
 

@@ -1,14 +1,12 @@
 #include "host/survey/statistics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "host/base/hypot3.h"
-#include "host/base/parallel.h"
 #include "host/base/rounding.h"
 
 namespace vkh {
@@ -99,84 +97,6 @@ Areas areas_of(const Mesh& a) {
   areas.whole = whole.value();
   areas.error = 1.01 * error.value() + 2 * kSumError * areas.whole;
   return areas;
-}
-
-// A quotient of differences of floats, which are exact or off by kUnit of themselves.
-double share_within(float a, float b, float c, double t) {
-  const auto [low, high] = std::minmax({a, b, c});
-  const double least = static_cast<double>(low), most = static_cast<double>(high);
-  if (t < least) return 0;
-  if (t >= most) return 1;
-  const double middle = static_cast<double>(std::max(std::min(a, b), std::min(std::max(a, b), c)));
-  const double below = t - least, above = most - t;
-  if (t < middle) return below / (middle - least) * (below / (most - least));
-  return 1 - above / (most - middle) * (above / (most - least));
-}
-
-namespace {
-
-double part_of(const CellStore& cells, const Areas& areas, size_t i) {
-  return cells.share(i) * areas.of_face[cells.face(i)];
-}
-
-// Shares of all and of nothing are exact.
-Enclosure share_of(double least, double most, const Areas& areas) {
-  return {std::clamp((least - areas.error) / (areas.whole + areas.error), 0.0, 1.0),
-          std::clamp((most + areas.error) / (areas.whole - areas.error), 0.0, 1.0)};
-}
-
-}  // namespace
-
-Enclosure mean_over(const CellStore& cells, const Areas& areas,
-                    const std::function<Enclosure(size_t)>& of_cell) {
-  struct Parts {
-    Sum lower, upper;
-    double least = 1, most = 0;
-    void add(double area_lower, double area_upper, const Enclosure& value) {
-      lower.add(area_lower);
-      upper.add(area_upper);
-      least = std::min(least, value.lower);
-      most = std::max(most, value.upper);
-    }
-  };
-  std::vector<Parts> blocks(block_count(cells.count()));
-  for_each_block(cells.count(), [&](size_t block, size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) {
-      const double area = part_of(cells, areas, i);
-      const Enclosure value = of_cell(i);
-      blocks[block].add(area * value.lower, area * value.upper, value);
-    }
-  });
-  Parts all;
-  for (const Parts& block : blocks)
-    all.add(block.lower.value(), block.upper.value(), {block.least, block.most});
-  Enclosure mean = share_of(all.lower.value(), all.upper.value(), areas);
-  if (all.least == 1) mean.lower = 1;
-  if (all.most == 0) mean.upper = 0;
-  return mean;
-}
-
-// A share of 1 or 0 is exact, whatever the others are rounded to.
-Enclosure share_within(const CellStore& cells, size_t i, const Threshold& at) {
-  const gpu::CellBounds& b = cells.bounds(i);
-  const auto share = [](const std::array<float, 3>& affine, double all, double t) {
-    if (t >= all) return 1.0;
-    if (t < static_cast<double>(std::min({affine[0], affine[1], affine[2]}))) return 0.0;
-    return std::clamp(share_within(affine[0], affine[1], affine[2], t),
-                      std::numeric_limits<double>::min(), 1 - kUnit);
-  };
-  const double most = static_cast<double>(std::max({b.lower_a, b.lower_b, b.lower_c}));
-  return {share({b.upper_a, b.upper_b, b.upper_c}, static_cast<double>(b.highest), at.down),
-          share({b.lower_a, b.lower_b, b.lower_c}, most, at.up)};
-}
-
-double mean_lower(const gpu::CellBounds& b) {
-  const double sum = static_cast<double>(b.lower_a) + static_cast<double>(b.lower_b) +
-                     static_cast<double>(b.lower_c);
-  const double size = std::abs(static_cast<double>(b.lower_a)) +
-                      std::abs(static_cast<double>(b.lower_b)) +
-                      std::abs(static_cast<double>(b.lower_c));
-  return std::max(sum / 3 - 4 * kUnit * size, 0.0);
 }
 
 float least_float_above(double x) {

@@ -1,11 +1,10 @@
 // Areas of A, and what is told of shares of them.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
-#include "host/survey/cell_store.h"
+#include "host/solve/cells.h"
 #include "vkhausdorff/field.h"
 
 namespace vkh {
@@ -23,10 +22,6 @@ struct Areas {
 };
 Areas areas_of(const Mesh& a);
 
-/// The share of a triangle's area on which the affine function with these values at its corners is
-/// at most `t`.
-double share_within(float a, float b, float c, double t);
-
 float least_float_above(double x);
 
 /// A distance in the frame that is not known better than that.
@@ -43,16 +38,6 @@ struct PercentileSearch {
   std::span<const double> shares;
   double resolution;  ///< bounds are to be so close to the best that the cells say
 };
-
-/// The mean over A's area of a quantity in [0, 1] that `of_cell` encloses on each cell.
-Enclosure mean_over(const CellStore& cells, const Areas& areas,
-                    const std::function<Enclosure(size_t)>& of_cell);
-
-/// The share of cell i that is surely, and perhaps, within a distance.
-Enclosure share_within(const CellStore& cells, size_t i, const Threshold& at);
-
-/// The mean of d(x, B) over the cell, from below.
-double mean_lower(const gpu::CellBounds& bounds);
 
 struct Moments {
   Enclosure mean, rms;  ///< in the frame

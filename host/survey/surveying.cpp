@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "host/survey/estimate.h"
 #include "host/survey/face_goals.h"
 #include "host/survey/map_goal.h"
+#include "host/survey/normal_goals.h"
+#include "host/survey/normals.h"
 #include "host/survey/sided_goals.h"
 #include "host/survey/signed_figures.h"
 #include "vkhausdorff/error.h"
@@ -177,23 +178,26 @@ void Surveying::add_sides_of_all(SurveyResult& result) {
   result.sides->ms = meter_.sides_ms();
 }
 
-// The host takes a copy of the cells, and goes on with it.
 void Surveying::add_normals(SurveyResult& result) {
-  CellStore store = waves_->store();
-  NormalCells normals(pair_, options_, areas_, [this] { return meter_.goes_on(); });
-  std::vector<Goal> goals;
-  normals.add_goals(goals);
-  Refining refining(pair_, meter_);
-  result.ended = std::max(result.ended, refining.refine(store, goals));
-  const Estimates estimates(pair_, store, [this] { return meter_.is_wanted(); });
-  normals.add_figures(store, estimates, *result.statistics);
+  const Normals normals(pair_, *options_.normals_within);
+  waves_->find_normals(normals.search());
+  NormalGoals goals(options_, pair_, *waves_);
+  result.ended = std::max(result.ended, waves_->refine(goals, meter_.effort()));
+  waves_->end_normals();
+  const auto with_middle = [](const Enclosure& e) {
+    return Enclosure{e.lower, e.upper, e.lower + (e.upper - e.lower) / 2};
+  };
+  Statistics& s = *result.statistics;
+  const Tallied found = goals.figures();
+  s.normal_cosine = with_middle(found.moments.mean);
+  for (size_t i = 0; i < s.bands.size(); ++i) s.bands[i].agreeing = with_middle(found.shares[i]);
 }
 
 void Surveying::add_map(SurveyResult& result) {
-  const CellStore store = waves_->store();
-  CellMap map = map_of({store, areas_}, pair_, options_);
+  const CellsRead all = waves_->read();
+  CellMap map = map_of(all, areas_, pair_, options_);
   if (has_cheap_sides_) add_cheap_sides(map);
-  if (sides_) add_sides(waves_->read({0, static_cast<uint32_t>(waves_->count())}).classes, map);
+  if (sides_) add_sides(all.classes, map);
   result.map = std::make_shared<const CellMap>(std::move(map));
 }
 
@@ -202,7 +206,7 @@ void Surveying::add_cheap_sides(CellMap& map) {
   const Sides sides(pair_, [this] { return meter_.sides_go_on(); });
   if (!sides.is_solid()) return;
   if (!waves_->find_sides(sides.search(), near_nought(pair_, map, waves_->reached()))) return;
-  add_sides(waves_->read({0, static_cast<uint32_t>(waves_->count())}).classes, map);
+  add_sides(waves_->read().classes, map);
   map.inside_out = sides.shells().inside_out();
 }
 
@@ -224,7 +228,7 @@ bool Surveying::narrow(const PooledSearch& search, double time_limit_s, SurveyRe
     goals.look({});
     if (!goals.are_met()) {
       const std::vector<Threshold> ends = goals.ends();
-      measured = waves_->measure({ends, 3e38}, meter_.effort_left() / 2).count;
+      measured = waves_->measure({ends, kAnyDistance}, meter_.effort_left() / 2).count;
     }
   } else {
     waves_->refine(goals, meter_.effort());

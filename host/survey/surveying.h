@@ -5,17 +5,14 @@
 #include <vector>
 
 #include "host/survey/distribution.h"
-#include "host/survey/normals.h"
 #include "host/survey/pooled.h"
-#include "host/survey/refining.h"
 #include "host/survey/sides.h"
 #include "host/survey/signed_distances.h"
 #include "host/survey/wave_survey.h"
 
 namespace vkh {
 
-/// Its cells stay on the device for more to be asked of them. The host takes a copy for a map, and
-/// refines one for normals.
+/// Its cells stay on the device for more to be asked of them. The host takes a copy for a map.
 class Surveying {
  public:
   /// `pair` lies on the device as long as it. Both outlive it. Throws what survey_mesh() names.

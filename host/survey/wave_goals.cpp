@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "host/survey/area_table.h"
-#include "host/survey/goals.h"
 
 namespace vkh {
 namespace {

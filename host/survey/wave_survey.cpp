@@ -98,10 +98,10 @@ bool WaveSurvey::score(const gpu::SurveyPlan& plan) {
   });
 }
 
-bool WaveSurvey::add_up(const gpu::SurveyPlan& plan, bool may_end) {
+bool WaveSurvey::add_up(const gpu::SurveyPlan& plan, int unit, bool may_end) {
   table_ = {};
   return look_at_cells(
-      may_end, [&](const CellRange& some) { add_table(cells_.tally(plan, unit_, some), table_); });
+      may_end, [&](const CellRange& some) { add_table(cells_.tally(plan, unit, some), table_); });
 }
 
 std::optional<Tallied> WaveSurvey::tally_now(const Tally& asked) { return tally_now(asked, true); }
@@ -114,11 +114,9 @@ std::optional<Tallied> WaveSurvey::tally_now(const Tally& asked, bool may_end) {
   do {
     const size_t count = std::min<size_t>(asked.at.size() - first, gpu::kSurveyEdges);
     const TallyEdges at = edges_of(asked.at.subspan(first, count));
-    gpu::SurveyPlan plan = plan_of(at, asked.moments);
-    plan.classes = asked.classes;
-    plan.far = asked.far;
-    if (!add_up(plan, may_end)) return {};
-    AreaTable(table_, at, weights_, unit_).tell(asked, all);
+    const int unit = asked.of_normals ? kCosineUnit : unit_;
+    if (!add_up(plan_of(at, asked), unit, may_end)) return {};
+    AreaTable(table_, at, weights_, unit).tell(asked, all);
     first += count;
   } while (first < asked.at.size());
   return all;
@@ -144,6 +142,12 @@ bool WaveSurvey::find_sides(const SideSearch& search, double above) {
   return find_fresh_sides();
 }
 
+bool WaveSurvey::find_normals(const NormalSearch& search) {
+  cells_.begin_normals(search);
+  has_normals_ = true;
+  return find_fresh_normals();
+}
+
 // Goes over all cells: those that have a side are left at once.
 bool WaveSurvey::find_fresh_sides() {
   if (!sides_) return true;
@@ -154,6 +158,18 @@ bool WaveSurvey::find_fresh_sides() {
     const double ms = meter_.on_device([&] { cells_.find_sides(*sides_, sides_above_, some); });
     meter_.sides().note(count, ms);
     meter_.note_sides(ms);
+    first += count;
+  }
+  return true;
+}
+
+// The same for normals, which take about as long as sides.
+bool WaveSurvey::find_fresh_normals() {
+  for (size_t first = 0; has_normals_ && first < cells_.count();) {
+    if (!meter_.goes_on()) return false;
+    const size_t count = std::min(meter_.sides().size(), cells_.count() - first);
+    const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
+    meter_.sides().note(count, meter_.on_device([&] { cells_.find_normals(some); }));
     first += count;
   }
   return true;
@@ -191,7 +207,7 @@ bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
   const size_t fresh = parts * choice.count();
   spent_ += fresh;
   meter_.spend(fresh);
-  if (bound_fresh(fresh) && find_fresh_sides()) return true;
+  if (bound_fresh(fresh) && find_fresh_sides() && find_fresh_normals()) return true;
   ended = meter_.ended();
   return false;
 }
@@ -227,13 +243,6 @@ CellsRead WaveSurvey::read(const CellRange& some) {
   CellsRead cells;
   meter_.on_device([&] { cells = cells_.read(some); });
   return cells;
-}
-
-CellStore WaveSurvey::store() {
-  CellsRead read = this->read({0, static_cast<uint32_t>(count())});
-  std::vector<float> reached = faces();
-  reached.resize(pair_.a.faces.size());
-  return CellStore(pair_.a, std::move(read.cells), std::move(read.bounds), std::move(reached));
 }
 
 // A submission has as many points as one that looks at cells, whose bounds come and go.

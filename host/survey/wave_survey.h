@@ -10,7 +10,6 @@
 
 #include "host/survey/area_figures.h"
 #include "host/survey/area_table.h"
-#include "host/survey/cell_store.h"
 #include "host/survey/point_distances.h"
 #include "host/survey/shares_seen.h"
 #include "host/survey/survey_meter.h"
@@ -40,6 +39,10 @@ class WaveSurvey : public AreaDistances {
   bool find_sides(const SideSearch& search, double above);
   /// New cells need no side from now on, and the search is asked for nothing more.
   void end_sides() { sides_.reset(); }
+  /// Compares normals on all cells, which lose their sides, and from now on on new ones; returns
+  /// whether it was not ended. What the search names lives until end_normals().
+  bool find_normals(const NormalSearch& search);
+  void end_normals() { has_normals_ = false; }
   /// Measures points of A that matter, up to so many.
   PointDistances::Measured measure(const PointDistances::Asked& asked, size_t most);
 
@@ -49,8 +52,7 @@ class WaveSurvey : public AreaDistances {
   /// The same of those cells of each face that are of the one set of classes, and of the other.
   std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes);
   CellsRead read(const CellRange& some);
-  /// Copies the cells for the host.
-  CellStore store();
+  CellsRead read() { return read({0, static_cast<uint32_t>(count())}); }
   /// No distance is above it, in the frame.
   double farthest() const { return std::ldexp(1.0, unit_ - 127); }
 
@@ -70,9 +72,10 @@ class WaveSurvey : public AreaDistances {
   template <class Look>
   bool look_at_cells(bool may_end, const Look& look);
   bool score(const gpu::SurveyPlan& plan);
-  bool add_up(const gpu::SurveyPlan& plan, bool may_end);
+  bool add_up(const gpu::SurveyPlan& plan, int unit, bool may_end);
   std::optional<Tallied> tally_now(const Tally& asked, bool may_end);
   bool find_fresh_sides();
+  bool find_fresh_normals();
   double largest(size_t which);
 
   const SurveyedPair& pair_;
@@ -87,6 +90,7 @@ class WaveSurvey : public AreaDistances {
   Tallied seen_;  // all but shares
   std::optional<SideSearch> sides_;
   float sides_above_ = 0;
+  bool has_normals_ = false;
   std::optional<PointDistances> distances_;
   std::vector<float> faces_;  // none until they are asked for
 };

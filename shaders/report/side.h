@@ -58,14 +58,27 @@ struct Above {
   float highest;
 };
 
-// Whether S may be closest to some point of T: it is not where a plane that S is behind is surely
-// farther than B. Both distances move by `moved`.
-VKH_FN bool may_be_closest(CellFrame t, Surface s, Above above, float moved) {
+// How much farther S is than B, from below, at T's corners: an affine function. Both distances move
+// by `moved`.
+struct Beyond {
+  vec3 at_corners;
+  bool is_far;  // S is farther everywhere
+};
+
+VKH_FN Beyond beyond_of(CellFrame t, Surface s, Above above, float moved) {
   Closest c = closest_point(vec3(0.0f, 0.0f, 0.0f), s.at);
   float off = round_up(minorant_off(t, s) + 2.0f * moved, 2.0f);
   vec3 below = minorant(t, s, shortened(c.offset), off).at_corners;
-  vec3 more = below - above.at_corners;
-  return !either(least3(more) > 0.0f, least3(below) > above.highest);
+  Beyond e;
+  e.at_corners = below - above.at_corners;
+  e.is_far = either(least3(e.at_corners) > 0.0f, least3(below) > above.highest);
+  return e;
+}
+
+// Whether S may be closest to some point of T: it is not where a plane that S is behind is surely
+// farther than B.
+VKH_FN bool may_be_closest(CellFrame t, Surface s, Above above, float moved) {
+  return !beyond_of(t, s, above, moved).is_far;
 }
 
 // A point of T, as good as any: `turn` 0 to 2. It is off by T's slack, and by 4 kUlp of the radius.

@@ -122,6 +122,24 @@ VKH_FN uint side_index(uint of_class) { return choose(of_class > kClassUnder, 0u
 
 VKH_FN bool is_among(uint of_class, uint classes) { return ((classes >> of_class) & 1u) != 0u; }
 
+// The bounds as tallies and scores of normals take them: at a cell that was not compared nothing is
+// known.
+VKH_FN TallyBounds with_normals(TallyBounds b, CellAgreement found, uint of_class) {
+  CellAgreement a = found;
+  if (of_class != kClassCompared) {
+    a.least = 0.0f;
+    a.most = 1.0f;
+    a.sure = 0.0f;
+    a.may = 1.0f;
+  }
+  b.lower = vec3(a.least, a.least, a.least);
+  b.mean_upper = a.most;
+  b.square_upper = 1.0f;
+  b.sure = a.sure;
+  b.may = a.may;
+  return b;
+}
+
 // The width of the mean of a distance that may have either sign, as where no side is known.
 VKH_FN float either_width(TallyBounds b) { return 2.0f * b.mean_upper; }
 

@@ -1,7 +1,7 @@
-// Scores cells by the plan. In: cells, bounds, classes, weights, faces_reached (floats as bits),
-// plan. Out: keys, the bins of the cells' scores, and histogram: how many cells each bin has, and
-// its bin 0 how many are in their face's way although no split helps. A workgroup goes over many
-// cells.
+// Scores cells by the plan. In: cells, bounds, classes, agreements, weights, faces_reached (floats
+// as bits), plan. Out: keys, the bins of the cells' scores, and histogram: how many cells each bin
+// has, and its bin 0 how many are in their face's way although no split helps. A workgroup goes
+// over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -16,16 +16,23 @@ layout(scalar, binding = 4) writeonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 5) buffer Histogram { uint histogram[]; };
 layout(scalar, binding = 6) readonly buffer FacesReached { uint faces_reached[]; };
 layout(scalar, binding = 7) readonly buffer Classes { uint classes[]; };
+layout(scalar, binding = 8) readonly buffer Agreements { CellAgreement agreements[]; };
 layout(scalar, push_constant) uniform PushBlock { SurveyPush push; };
 
 #include "shaders/survey/score.h"
 
 shared uint counts[kScoreBins];
 
-float score_of(CellBounds of_cell, uint of_class) {
+TallyBounds bounds_of(uint i, CellBounds of_cell, uint of_class) {
+  TallyBounds b = tally_bounds(of_cell);
+  if (plan.of_normals != 0u) return with_normals(b, agreements[i], of_class);
+  return b;
+}
+
+float score_of(uint i, CellBounds of_cell, uint of_class) {
   bool is_open = plan.mean > 0.0 || plan.square > 0.0 || plan.open_count > 0u;
   if (!is_open) return 0.0;
-  TallyBounds b = tally_bounds(of_cell);
+  TallyBounds b = bounds_of(i, of_cell, of_class);
   float score = 0.0;
   TallyBounds kept = within_most(b, plan.most);
   if (plan.mean > 0.0 && is_among(of_class, plan.mean_classes)) {
@@ -56,8 +63,9 @@ Key key_of(uint i) {
   uint of_class = classes[i];
   float of_face = score_for_face(i, b.highest, of_class);
   Key none = Key(0u, of_face > 0.0);
-  if (b.highest - lowest_of(b) <= kScoreFloor) return none;
-  float score = score_of(b, of_class);
+  bool is_known = b.highest - lowest_of(b) <= kScoreFloor;
+  if (is_known && plan.of_normals == 0u) return none;
+  float score = score_of(i, b, of_class);
   float of_map = map_score(b, plan.map_step, plan.map_most);
   if (!(score > 0.0) && !(of_map > 0.0) && !(of_face > 0.0)) return none;
   Cell cell = cells[i];

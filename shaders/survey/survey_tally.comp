@@ -1,6 +1,6 @@
 // Adds up what cells of the plan's classes tell of A: areas within the plan's edges, means and mean
-// squares. In: cells, bounds, classes, weights, plan. Out: table, to which is added. A workgroup
-// goes over many cells.
+// squares. In: cells, bounds, classes, agreements, weights, plan. Out: table, to which is added. A
+// workgroup goes over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -13,6 +13,7 @@ layout(scalar, binding = 2) readonly buffer Weights { Wide weights[]; };
 layout(scalar, binding = 3) readonly buffer Plan { SurveyPlan plan; };
 layout(scalar, binding = 4) buffer Table { SurveyTable table; };
 layout(scalar, binding = 5) readonly buffer Classes { uint classes[]; };
+layout(scalar, binding = 6) readonly buffer Agreements { CellAgreement agreements[]; };
 layout(scalar, push_constant) uniform PushBlock { SurveyPush push; };
 
 #include "shaders/survey/score.h"
@@ -52,13 +53,13 @@ void add_within(TallyBounds b, CellWeight w) {
     if (!is_surely_all && down >= b.above.least) {
       is_surely_all = down >= b.highest;
       add((is_surely_all ? kSurelyWhole : kSurelyPart) + k,
-          is_surely_all ? w.down : share_down(w, surely_within(b, down)));
+          is_surely_all ? counts_down(w, b) : share_down(w, surely_within(b, down)));
     }
     if (!is_perhaps_all) {
       float up = edges_up[k];
       is_perhaps_all = up >= b.below.most;
       add((is_perhaps_all ? kPerhapsWhole : kPerhapsPart) + k,
-          is_perhaps_all ? w.up : share_up(w, perhaps_within(b, up)));
+          is_perhaps_all ? counts_up(w, b) : share_up(w, perhaps_within(b, up)));
     }
     if (is_surely_all && is_perhaps_all) break;
   }
@@ -74,6 +75,12 @@ void add_moments(TallyBounds b, CellWeight w, inout Moments m) {
   m.square_lower =
       wide_sum(m.square_lower, weighed_down(w, square_over_down(b.lower), push.square_unit));
   m.square_upper = wide_sum(m.square_upper, weighed_up(w, b.square_upper, push.square_unit));
+}
+
+TallyBounds bounds_of(uint i) {
+  TallyBounds b = tally_bounds(bounds[i]);
+  if (plan.of_normals != 0u) return with_normals(b, agreements[i], classes[i]);
+  return b;
 }
 
 void begin_sums() {
@@ -119,10 +126,10 @@ void main() {
     Wide of_face = weights[cell.face];
     CellWeight w =
         cell_weight(uvec2(of_face.low, of_face.high), halvings_of(unpack_corners(cell.corners)));
-    TallyBounds b = tally_bounds(bounds[i]);
+    TallyBounds b = bounds_of(i);
     if (plan.moments != 0u) add_moments(within_most(b, plan.most), w, sums);
-    most = max(most, bits_of(b.highest));
-    not_least = max(not_least, ~bits_of(lowest_of(b)));
+    most = max(most, bits_of(counts_to(b)));
+    not_least = max(not_least, ~bits_of(counts_from(b)));
     farthest = max(farthest, bits_of(bounds[i].reached));
     if (bounds[i].reached >= plan.far) not_first = max(not_first, ~i);
     add_within(b, w);

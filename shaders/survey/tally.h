@@ -71,6 +71,7 @@ struct TallyBounds {
   Spread below, above;  // of affine functions, not above d, `lower`, and not below it
   float highest;        // >= d
   float mean_upper, square_upper;
+  float sure, may;  // the cell counts on this share of it at least, and at most
 };
 
 VKH_FN TallyBounds tally_bounds(CellBounds b) {
@@ -82,6 +83,8 @@ VKH_FN TallyBounds tally_bounds(CellBounds b) {
   t.mean_upper = min(b.mean_upper, b.highest);
   float square = choose(b.highest > 0.0f, round_up(b.highest * t.mean_upper, 1.0f), 0.0f);
   t.square_upper = min(b.square_upper, square);
+  t.sure = 1.0f;
+  t.may = 1.0f;
   return t;
 }
 
@@ -100,11 +103,30 @@ VKH_FN TallyBounds within_most(TallyBounds b, SurveyEdge most) {
   return b;
 }
 
-// The share of the cell that is surely within a distance, and the share that may be.
+// The share of the cell that is surely within a distance and counts, and the share that may. The
+// difference of two shares is off by kUlp of 1.
 VKH_FN float surely_within(TallyBounds b, float down) {
-  return choose(down >= b.highest, 1.0f, share_within(b.above, down).down);
+  float within = choose(down >= b.highest, 1.0f, share_within(b.above, down).down);
+  return choose(b.sure == 1.0f, within, max((within - (1.0f - b.sure)) - 2.0f * kUlp, 0.0f));
 }
-VKH_FN float perhaps_within(TallyBounds b, float up) { return share_within(b.below, up).up; }
+VKH_FN float perhaps_within(TallyBounds b, float up) {
+  return min(share_within(b.below, up).up, b.may);
+}
+
+// What of the weight counts, if all of the cell is within a distance.
+VKH_FN uvec2 counts_down(CellWeight w, TallyBounds b) {
+  if (b.sure == 1.0f) return w.down;
+  return share_down(w, b.sure);
+}
+VKH_FN uvec2 counts_up(CellWeight w, TallyBounds b) {
+  if (b.may == 1.0f) return w.up;
+  return share_up(w, b.may);
+}
+
+// All that is known to count is within the one distance; and nothing that may is nearer than the
+// other.
+VKH_FN float counts_to(TallyBounds b) { return choose(b.sure == 1.0f, b.highest, 3.0e38f); }
+VKH_FN float counts_from(TallyBounds b) { return choose(b.may > 0.0f, lowest_of(b), 3.0e38f); }
 
 VKH_LIB_END
 #endif

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "host/show/page_figures.h"
-#include "host/survey/cell_store.h"
+#include "host/solve/cell_corners.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
 
@@ -52,19 +52,54 @@ struct Mapped {
 
 double wave(const glm::dvec3& p) { return 0.4 + 0.3 * std::sin(3 * p.x) * std::cos(2 * p.y); }
 
+// A part of a face, and its share of the face.
+struct Part {
+  vkh::lib::Bary3 at;
+  uint32_t face;
+  double share;
+};
+
+// The corner opposite the longest edge.
+uint32_t opposite_longest(const Mesh& mesh, const Part& part) {
+  const auto place = [&](const glm::uvec2& at) {
+    const glm::uvec3 f = mesh.faces[part.face];
+    const glm::dvec2 w = glm::dvec2(at) / static_cast<double>(vkh::gpu::kBaryOne);
+    const glm::dvec3 a = mesh.vertices[f.x];
+    return glm::vec3(a + w.x * (mesh.vertices[f.y] - a) + w.y * (mesh.vertices[f.z] - a));
+  };
+  return vkh::lib::opposite_longest({place(part.at.a), place(part.at.b), place(part.at.c)});
+}
+
+// The faces of a mesh, of which parts are halved at random.
+std::vector<Part> halved(const Mesh& mesh, size_t splits, vkh::test::Random& random) {
+  std::vector<Part> parts;
+  for (uint32_t f = 0; f < mesh.faces.size(); ++f) parts.push_back({vkh::lib::whole_root(), f, 1});
+  for (size_t i = 0; i < splits; ++i) {
+    const auto which = static_cast<size_t>(random.unit() * static_cast<double>(parts.size()));
+    Part part = parts[which];
+    const uint32_t corner = opposite_longest(mesh, part);
+    if (!vkh::lib::has_middle_opposite(part.at, corner)) continue;
+    const vkh::lib::Halves halves =
+        vkh::lib::halves_of(part.at, corner, vkh::lib::middle_opposite(part.at, corner));
+    part.share /= 2;
+    part.at = halves.first;
+    parts[which] = part;
+    part.at = halves.second;
+    parts.push_back(part);
+  }
+  return parts;
+}
+
 // Cells that were split at random: each has the wave at its corners, and a width of its own.
 Mapped mapped(const Mesh& mesh, size_t splits) {
-  vkh::CellStore store(mesh, 1);
   vkh::test::Random random(11);
-  for (size_t i = 0; i < splits; ++i) {
-    const auto at = static_cast<size_t>(random.unit() * static_cast<double>(store.count()));
-    if (store.can_split(at)) store.split(std::vector{at});
-  }
   Mapped out{.mesh = mesh, .field = {}, .map = {}};
   out.map.bar = kBar;
-  for (size_t i = 0; i < store.count(); ++i) {
-    const auto& c = store.cell(i).corners;
-    vkh::MapCell cell{.corners = {c.x, c.y, c.z, c.w}, .face = store.face(i)};
+  for (const Part& part : halved(mesh, splits, random)) {
+    vkh::gpu::Cell words{};
+    vkh::set_corners(words, part.at);
+    const auto& c = words.corners;
+    vkh::MapCell cell{.corners = {c.x, c.y, c.z, c.w}, .face = part.face};
     const glm::uvec3 f = mesh.faces[cell.face];
     const auto weights = vkh::weights_of(cell);
     for (size_t k = 0; k < 3; ++k) {
@@ -73,7 +108,7 @@ Mapped mapped(const Mesh& mesh, size_t splits) {
           wave(w.x * mesh.vertices[f.x] + w.y * mesh.vertices[f.y] + w.z * mesh.vertices[f.z]));
     }
     cell.width = static_cast<float>(0.1 * random.unit());
-    cell.share = static_cast<float>(store.share(i) / static_cast<double>(mesh.faces.size()));
+    cell.share = static_cast<float>(part.share / static_cast<double>(mesh.faces.size()));
     out.map.cells.push_back(cell);
   }
   return out;

@@ -1,6 +1,4 @@
 // Estimates of figures and of cells, goals relative to each figure, and maps by cells.
-#include "host/survey/estimate.h"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>

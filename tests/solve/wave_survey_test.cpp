@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host/base/parallel.h"
+#include "host/solve/cell_corners.h"
 #include "host/survey/shares_seen.h"
 #include "host/survey/survey_with.h"
 #include "shaders/math/parts.h"
@@ -159,27 +160,49 @@ SurveyOptions figures(std::vector<double> bands = {}) {
 struct Said {
   double surely = 0, perhaps = 0;
 };
-Said within(const CellStore& cells, const AreaWeights& weights, const Threshold& at) {
+
+/// The share of a triangle on which the affine function with these values at its corners is at most
+/// `t`.
+double share_below(std::array<double, 3> at, double t) {
+  std::sort(at.begin(), at.end());
+  const auto& [least, middle, most] = at;
+  if (t < least) return 0;
+  if (t >= most) return 1;
+  if (t < middle) return (t - least) / (middle - least) * ((t - least) / (most - least));
+  return 1 - (most - t) / (most - middle) * ((most - t) / (most - least));
+}
+
+/// The share of its face that a cell has.
+double share_of(const gpu::Cell& cell) {
+  return std::ldexp(1.0, -static_cast<int>(lib::halvings_of(corners_of(cell))));
+}
+
+Said within(const CellsRead& cells, const AreaWeights& weights, const Threshold& at) {
   Said said;
-  for (size_t i = 0; i < cells.count(); ++i) {
-    const double area = cells.share(i) * static_cast<double>(weights.of_face[cells.face(i)]);
-    const Enclosure share = share_within(cells, i, at);
-    said.surely += area * share.lower / weights.whole;
-    said.perhaps += area * share.upper / weights.whole;
+  for (size_t i = 0; i < cells.cells.size(); ++i) {
+    const gpu::Cell& cell = cells.cells[i];
+    const gpu::CellBounds& b = cells.bounds[i];
+    const double area =
+        share_of(cell) * static_cast<double>(weights.of_face[cell.face]) / weights.whole;
+    const bool is_all = at.down >= static_cast<double>(b.highest);
+    said.surely += area * (is_all ? 1 : share_below({b.upper_a, b.upper_b, b.upper_c}, at.down));
+    said.perhaps += area * share_below({b.lower_a, b.lower_b, b.lower_c}, at.up);
   }
   return said;
 }
 
 // The means that cells say in double.
-Moments moments_said(const CellStore& cells, const Areas& areas) {
+Moments moments_said(const CellsRead& cells, const Areas& areas) {
   Moments sums{{0, 0}, {0, 0}};
-  for (size_t i = 0; i < cells.count(); ++i) {
-    const gpu::CellBounds& b = cells.bounds(i);
-    const double area = cells.share(i) * areas.of_face[cells.face(i)] / areas.whole;
+  for (size_t i = 0; i < cells.cells.size(); ++i) {
+    const gpu::CellBounds& b = cells.bounds[i];
+    const double area = share_of(cells.cells[i]) * areas.of_face[cells.cells[i].face] / areas.whole;
     const lib::vec3 lower(b.lower_a, b.lower_b, b.lower_c);
     const auto highest = static_cast<double>(b.highest), mean = static_cast<double>(b.mean_upper);
-    sums.mean.lower +=
-        area * std::max(mean_lower(b), static_cast<double>(lib::mean_over_down(lower)));
+    const double middle = (static_cast<double>(b.lower_a) + static_cast<double>(b.lower_b) +
+                           static_cast<double>(b.lower_c)) /
+                          3;
+    sums.mean.lower += area * std::max(middle, static_cast<double>(lib::mean_over_down(lower)));
     sums.mean.upper += area * mean;
     sums.rms.lower += area * static_cast<double>(lib::square_over_down(lower));
     sums.rms.upper += area * std::min(static_cast<double>(b.square_upper), highest * mean);
@@ -202,8 +225,8 @@ TEST_CASE("a tally is what the cells say, as near as floats tell, and outside of
       constexpr double kAny = std::numeric_limits<double>::infinity();
       const Tallied tallied = waves.tally({at, Threshold{kAny, kAny}});
       const auto& [shares, moments] = std::pair(tallied.shares, tallied.moments);
-      const CellStore cells = waves.store();
-      CHECK(cells.count() > a.faces.size());
+      const CellsRead cells = waves.read();
+      CHECK(cells.cells.size() > a.faces.size());
       for (size_t k = 0; k < at.size(); k += 7) {
         const Said said = within(cells, weights, at[k]);
         CHECK(shares[k].lower <= said.surely + 1e-12);
@@ -217,8 +240,7 @@ TEST_CASE("a tally is what the cells say, as near as floats tell, and outside of
       CHECK(moments.rms.lower >= of_store.rms.lower - 1e-6);
       CHECK(moments.rms.upper == doctest::Approx(of_store.rms.upper).epsilon(1e-6));
       double area = 0;
-      for (size_t i = 0; i < cells.count(); ++i)
-        area += cells.share(i) * areas.of_face[cells.face(i)];
+      for (const gpu::Cell& cell : cells.cells) area += share_of(cell) * areas.of_face[cell.face];
       CHECK(area == doctest::Approx(areas.whole).epsilon(1e-12));
     });
   };
@@ -309,6 +331,8 @@ class ShortOfRoom : public SurveyCells {
   void find_sides(const SideSearch& search, float above, const CellRange& some) override {
     cells_.find_sides(search, above, some);
   }
+  void begin_normals(const NormalSearch& search) override { cells_.begin_normals(search); }
+  void find_normals(const CellRange& some) override { cells_.find_normals(some); }
   std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes) override {
     return cells_.faces(reached_classes, highest_classes);
   }

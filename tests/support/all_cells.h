@@ -24,17 +24,31 @@ inline bool split_all(SurveyCells& cells) {
   return true;
 }
 
-/// Makes cells of A's faces, splits them until there are at least so many, and finds their sides.
-inline CellsRead sided_cells(const SurveyedPair& pair, const SideSearch& search, size_t at_least) {
+/// Makes cells of A's faces, and splits them until there are at least so many; returns all of them.
+inline CellRange make_cells(const SurveyedPair& pair, size_t at_least) {
   SurveyCells& cells = *pair.cells;
   const double farthest = pair.frame.to_frame(pair.farthest) + pair.displacement;
   cells.begin(weights_of(areas_of(pair.a)).of_face, static_cast<float>(1.001 * farthest));
   cells.bound(0, cells.count(), true);
   while (cells.count() < at_least && split_all(cells)) {
   }
-  const CellRange all{0, static_cast<uint32_t>(cells.count())};
-  cells.find_sides(search, -1, all);
-  return cells.read(all);
+  return {0, static_cast<uint32_t>(cells.count())};
+}
+
+/// Makes such cells, and finds their sides.
+inline CellsRead sided_cells(const SurveyedPair& pair, const SideSearch& search, size_t at_least) {
+  const CellRange all = make_cells(pair, at_least);
+  pair.cells->find_sides(search, -1, all);
+  return pair.cells->read(all);
+}
+
+/// Makes such cells, and finds how their normals agree.
+inline CellsRead cells_with_normals(const SurveyedPair& pair, const NormalSearch& search,
+                                    size_t at_least) {
+  const CellRange all = make_cells(pair, at_least);
+  pair.cells->begin_normals(search);
+  pair.cells->find_normals(all);
+  return pair.cells->read(all);
 }
 
 }  // namespace vkh::test

@@ -186,6 +186,47 @@ TEST_CASE("tally.h: moments within a distance enclose those of what is within it
   }
 }
 
+// Of what is within, what does not count may all be there; and of what may count all may be within.
+TEST_CASE("tally.h: a cell that counts on a share of it counts no more, and no less") {
+  Random random(31);
+  for (int i = 0; i < 20'000; ++i) {
+    gpu::CellBounds b{};
+    const auto value = [&] { return static_cast<float>(random.unit()); };
+    b.lower_a = value(), b.lower_b = value(), b.lower_c = value();
+    b.upper_a = b.lower_a + value(), b.upper_b = b.lower_b + value(),
+    b.upper_c = b.lower_c + value();
+    b.highest = b.mean_upper = std::max({b.upper_a, b.upper_b, b.upper_c});
+    const gpu::CellAgreement found{.least = 0.25f, .most = 0.5f, .sure = value(), .may = value()};
+    const lib::TallyBounds all = lib::tally_bounds(b),
+                           some = lib::with_normals(all, found, gpu::kClassCompared);
+    const float at = 2 * value();
+    const mpq_class sure(static_cast<double>(found.sure)),
+        within(static_cast<double>(lib::surely_within(all, at)));
+    REQUIRE(mpq_class(static_cast<double>(lib::surely_within(some, at))) <=
+            (within + sure > 1 ? mpq_class(within + sure - 1) : mpq_class(0)));
+    REQUIRE(lib::surely_within(some, at) >=
+            static_cast<float>(within.get_d()) + found.sure - 1.001f);
+    REQUIRE(lib::perhaps_within(some, at) == std::min(lib::perhaps_within(all, at), found.may));
+    const lib::CellWeight w{{1u << 24, 5}, {(1u << 24) + 1, 5}};
+    const auto units = [](const glm::uvec2& x) {
+      return mpq_class(static_cast<double>((uint64_t{x.y} << 32) + x.x));
+    };
+    REQUIRE(units(lib::counts_down(w, some)) <= units(w.down) * sure);
+    REQUIRE(units(lib::counts_up(w, some)) >=
+            units(w.up) * mpq_class(static_cast<double>(found.may)));
+    REQUIRE(units(lib::counts_down(w, all)) == units(w.down));
+    REQUIRE(units(lib::counts_up(w, all)) == units(w.up));
+    REQUIRE(lib::counts_to(all) == b.highest);
+    REQUIRE(lib::counts_from(all) == all.below.least);
+    REQUIRE(lib::counts_to(some) > 1e38f);
+    const lib::TallyBounds unseen = lib::with_normals(all, found, gpu::kClassOver);
+    REQUIRE(unseen.sure == 0);
+    REQUIRE(unseen.may == 1);
+    REQUIRE(unseen.lower.x == 0);
+    REQUIRE(unseen.mean_upper == 1);
+  }
+}
+
 TEST_CASE("score.h: a cell is in its face's way above what the face reaches, or above a limit") {
   constexpr float kAny = 3e38f;
   CHECK(lib::face_score(1.0f, 0.5f, 0.25f, -kAny, kAny) == 0.25f);
