@@ -11,6 +11,7 @@
 
 #include "host/show/page_figures.h"
 #include "host/solve/cell_corners.h"
+#include "shaders/math/triangle.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
 

@@ -403,12 +403,7 @@ struct Both {
   SurveyResult a, b;
 };
 
-TEST_CASE("a survey that goes on for the pooled percentile narrows it, and stays true") {
-  const Mesh a = cube(1.0), b = icosphere(1.3, 3);
-  SurveyOptions options;
-  options.percentiles = {0.3};
-  options.mean_tolerance = 0.5;
-  options.statistics = true;
+void narrow_pooled(const Mesh& a, const Mesh& b, const SurveyOptions& options) {
   const SymmetricReport report = solver().symmetric(a, b);
   const PairView views[] = {{.a = a, .b = b}, {.a = b, .b = a}};
   const Enclosure narrow = metrics_between(a, b, 30, {}).hd_p_pooled.value;
@@ -433,6 +428,22 @@ TEST_CASE("a survey that goes on for the pooled percentile narrows it, and stays
     CHECK(known.lower <= narrow.upper);
     CHECK(known.upper >= narrow.lower);
   });
+}
+
+// A map's search for sides, and a comparison of normals, end before: what they named is gone.
+TEST_CASE("a survey that goes on for the pooled percentile narrows it, and stays true") {
+  SurveyOptions options;
+  options.percentiles = {0.3};
+  options.mean_tolerance = 0.5;
+  options.statistics = true;
+  const Mesh a = cube(1.0), b = icosphere(1.3, 3);
+  narrow_pooled(a, b, options);
+  options.map = MapOptions{.pixels = 2, .sides_if_cheap = true};
+  narrow_pooled(a, b, options);
+  options.map.reset();
+  options.normals_within = 20;
+  options.cosine_tolerance = 1;
+  narrow_pooled(a, b, options);
 }
 
 TEST_CASE("a pooled percentile in a gap of the distribution is a jump, and costs no effort") {
