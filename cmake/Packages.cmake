@@ -39,12 +39,13 @@ function(vkh_deb group name section)
 endfunction()
 
 set(CPACK_COMPONENTS_ALL)
+set(loader libvulkan1)  # opened when a program runs, and not by --device native
 set(headers_only "libvulkan-dev")
 if(VKH_HOST)
   vkh_deb(vkh_program vkhausdorff science program)
-  set(CPACK_DEBIAN_VKH_PROGRAM_PACKAGE_DEPENDS libvulkan1)  # opened when the program runs
+  set(CPACK_DEBIAN_VKH_PROGRAM_PACKAGE_RECOMMENDS ${loader})
   set(CPACK_DEBIAN_VKH_PROGRAM_DESCRIPTION
-      "The program: encloses the distance of two meshes in an interval that is\n proven, on a GPU or on the CPU, through Vulkan.")
+      "The program: encloses the distance of two meshes in an interval that is\n proven, on a GPU or on the CPU, with Vulkan or without it.")
   vkh_deb(vkh_dev libvkhausdorff-dev libdevel engine host)
   set(headers_only "libvulkan-dev, libglm-dev")
   if(VKH_HAS_MESHOPTIMIZER)
@@ -69,7 +70,8 @@ if(TARGET vkh_python)
   vkh_deb(vkh_py python3-vkhausdorff python deb_python)
   math(EXPR next "${VKH_PYTHON_MINOR} + 1")  # the module is for the Python that it was built with
   set(CPACK_DEBIAN_VKH_PY_PACKAGE_DEPENDS
-      "python3 (>= 3.${VKH_PYTHON_MINOR}), python3 (<< 3.${next}), python3-numpy, libvulkan1")
+      "python3 (>= 3.${VKH_PYTHON_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_DEBIAN_VKH_PY_PACKAGE_RECOMMENDS ${loader})
   set(CPACK_DEBIAN_VKH_PY_DESCRIPTION
       "The Python package: takes NumPy arrays and encloses the distance of two\n meshes in an interval that is proven.")
 endif()

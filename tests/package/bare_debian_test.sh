@@ -66,6 +66,11 @@ use_packages() {
   cp "$source"/tests/package/consumer/* "$root/use"
   printf 'OFF\n3 1 0\n0 0 0.25\n1 0 0.25\n0 1 0.25\n3 0 1 2\n' >"$root/use/a.off"
   printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >"$root/use/b.off"
+  # Before the loader comes with the drivers: apt only recommends it.
+  step native "$root" enter "$root" bash -ec 'apt-get -q update
+    DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends /release/vkhausdorff_*.deb /release/python3-vkhausdorff_*.deb
+    [ -z "$(find /usr/lib -name "libvulkan*")" ] && cd /use && vkhausdorff gate a.off b.off --max 0.3abs --device native
+    python3 -c "import vkhausdorff; print(vkhausdorff.distance(\"b.off\", \"a.off\", device=\"native\"))"'
   step install "$root" enter "$root" bash -c 'apt-get -q update && DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends \
     g++ cmake make glslang-tools python3 mesa-vulkan-drivers /release/*.deb'
   step use "$root" enter "$root" bash -ec 'cd /use && cmake -S . -B out -DCMAKE_BUILD_TYPE=Release && cmake --build out && out/engine && out/host b.off a.off && vkhausdorff doctor && python3 -c "import vkhausdorff; print(vkhausdorff.distance(\"b.off\", \"a.off\"))"'

@@ -21,6 +21,9 @@ for name in "${names[@]}"; do
   file=$folder/made/${name}_${version}_$(dpkg --print-architecture).deb
   [ -e "$file" ] || fail "no $file"
   dpkg-deb -f "$file" Depends | grep -qE 'libc6 \(|libvulkan-dev' || fail "$file names no dependencies"
+  case $name in *-dev) continue ;; esac
+  dpkg-deb -f "$file" Depends | grep -q libvulkan && fail "$file does not go without the Vulkan loader"
+  dpkg-deb -f "$file" Recommends | grep -qx libvulkan1 || fail "$file does not recommend the Vulkan loader"
 done
 
 if command -v lintian >/dev/null; then
