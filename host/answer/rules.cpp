@@ -164,7 +164,6 @@ struct OfDevices {
   bool (*is_asked)(const Question&);
 };
 constexpr OfDevices kOfDevices[] = {
-    {"verify", [](const Question& q) { return q.verify; }},
     {"preset",
      [](const Question& q) {
        return !q.engine.preset.empty() && q.engine.preset != preset_names().front();

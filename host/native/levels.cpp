@@ -15,10 +15,14 @@ constexpr size_t kVerticesOfPiece = 256;
 
 std::array<uint32_t, 3> three(const uvec3& v) { return {v.x, v.y, v.z}; }
 
-double area_of(const Bary3& t) {
-  const auto step = [](uint from, uint to) { return double(int64_t{to} - int64_t{from}); };
-  return abs(step(t.a.x, t.b.x) * step(t.a.y, t.c.y) - step(t.a.y, t.b.y) * step(t.a.x, t.c.x));
+// Of a part of a face, in units of 1 / kWholeArea: exact, since a step is at most 2^30 in size.
+uint64_t area_of(const Bary3& t) {
+  const auto step = [](uint from, uint to) { return int64_t{to} - int64_t{from}; };
+  const int64_t area = step(t.a.x, t.b.x) * step(t.a.y, t.c.y) -  //
+                       step(t.a.y, t.b.y) * step(t.a.x, t.c.x);
+  return static_cast<uint64_t>(area < 0 ? -area : area);
 }
+static_assert(kWholeArea == uint64_t{kOne} * kOne);
 
 // The smallest u first; of equal ones the smallest in area, whose parts come before their equals.
 bool is_sooner(const Candidate& p, const Candidate& q) {
@@ -36,7 +40,21 @@ Levels::Levels(const Problem& problem, const Goal& goal, const NativeOptions& op
     : problem_(problem),
       goal_(goal),
       most_(std::max<size_t>(options.memory_bytes / kBytesOfCandidate, 1)),
-      pool_(options.threads, std::move(keep_going), "the run was ended") {}
+      pool_(options.threads, std::move(keep_going), "the run was ended"),
+      closed_areas_(options.coverage ? problem.a.faces.size() : 0) {}
+
+std::vector<uint64_t> Levels::areas() const {
+  std::vector<uint64_t> areas = closed_areas_;
+  areas.resize(2 * closed_areas_.size());
+  if (areas.empty()) return areas;
+  for (const Candidate& c : open_) areas[closed_areas_.size() + c.face] += area_of(c.at);
+  return areas;
+}
+
+void Levels::close(Piece& piece, uint32_t face, const Bary3& at, double upper, Close by) const {
+  piece.gain.close(upper, by);
+  if (!closed_areas_.empty()) piece.closed.push_back({face, area_of(at)});
+}
 
 // A candidate that was given up keeps the upper end where it is: none below it needs refining.
 double Levels::threshold() const {
@@ -55,6 +73,7 @@ std::vector<Levels::Piece> Levels::in_pieces(size_t count, size_t size, const Wo
 void Levels::take_over(const std::vector<Piece>& pieces) {
   for (const Piece& piece : pieces) {
     total_.add(piece.gain);
+    for (const Closed& c : piece.closed) closed_areas_[c.face] += c.area;
     open_.insert(open_.end(), piece.open.begin(), piece.open.end());
   }
   peak_ = std::max(peak_, open_.size());
@@ -114,10 +133,10 @@ void Levels::bound_face(Piece& piece, uint32_t f) const {
   family.add_point(whole.b, near[1].place);
   family.add_point(whole.c, near[2].place);
   const bool on_b = near[0].distance2 + near[1].distance2 + near[2].distance2 == 0;
-  if (on_b && family.is_shared(v, piece.gain)) return piece.gain.close(0, kByExact);
+  if (on_b && family.is_shared(v, piece.gain)) return close(piece, f, whole, 0, kByExact);
   const Child child{whole, {0, 1, 2}};
   const Verdict verdict = family.bound(child, 1e30, threshold(), piece.gain);
-  if (verdict.upper <= threshold()) return piece.gain.close(verdict.upper, verdict.by);
+  if (verdict.upper <= threshold()) return close(piece, f, whole, verdict.upper, verdict.by);
   piece.open.push_back(
       {whole, f, {near[0].place, near[1].place, near[2].place}, verdict.centre, verdict.upper});
 }
@@ -128,7 +147,10 @@ void Levels::give_up() {
   if (open_.size() <= most_ - most_ / 4) return;
   const auto kept = open_.end() - static_cast<std::ptrdiff_t>(most_ / 2);
   if (kept < open_.end()) std::nth_element(open_.begin(), kept, open_.end(), is_sooner);
-  for (auto c = open_.begin(); c < kept; ++c) given_up_ = max(given_up_, c->upper);
+  for (auto c = open_.begin(); c < kept; ++c) {
+    given_up_ = max(given_up_, c->upper);
+    if (!closed_areas_.empty()) closed_areas_[c->face] += area_of(c->at);
+  }
   total_.largest_closed = max(total_.largest_closed, given_up_);
   open_.erase(open_.begin(), kept);
 }
@@ -164,10 +186,10 @@ uint32_t Levels::choose_split(const Candidate& c, const Face& face) const {
 
 void Levels::split(Piece& piece, uint32_t number) const {
   const Candidate& c = open_[number];
-  if (c.upper <= threshold()) return piece.gain.close(c.upper, kByRisen);
+  if (c.upper <= threshold()) return close(piece, c.face, c.at, c.upper, kByRisen);
   const Face face = problem_.face_of_a(c.face);
   Split s{.parent = number, .code = choose_split(c, face), .nearest = {}};
-  if (s.code == kSplitNone) return piece.gain.close(c.upper, kByPrecision);
+  if (s.code == kSplitNone) return close(piece, c.face, c.at, c.upper, kByPrecision);
   const Bary6 points = split_points(c.at, s.code);
   for (uint i = 0; i < 3; ++i) {
     const uvec2 at = corner_of(points.fresh, i);
@@ -198,7 +220,7 @@ void Levels::bound_children(Piece& piece, const Split& s) const {
     const Child child{child_of(points, corner), three(corner)};
     const Verdict v = family.bound(child, parent.upper, threshold(), piece.gain);
     if (v.upper <= threshold()) {
-      piece.gain.close(v.upper, v.by);
+      close(piece, parent.face, child.at, v.upper, v.by);
     } else {
       piece.open.push_back({child.at,
                             parent.face,

@@ -40,10 +40,17 @@ class Levels {
   size_t peak() const { return peak_; }
   size_t threads() const { return pool_.threads(); }
   bool has_given_up() const { return given_up_ >= 0; }
+  std::vector<uint64_t> areas() const;  ///< NativeReport::areas
 
  private:
+  /// A part of a face that was closed.
+  struct Closed {
+    uint32_t face;
+    uint64_t area;
+  };
   struct Piece {
     Gain gain;
+    std::vector<Closed> closed;  // where areas are asked for
     std::vector<Split> splits;
     std::vector<Candidate> open;
   };
@@ -51,6 +58,7 @@ class Levels {
   std::vector<Piece> in_pieces(size_t count, size_t size, const Work& work);
 
   double threshold() const;
+  void close(Piece& piece, uint32_t face, const Bary3& at, double upper, Close by) const;
   void query_vertices(Piece& piece, size_t begin, size_t end);
   void bound_face(Piece& piece, uint32_t f) const;
   uint32_t choose_split(const Candidate& c, const Face& face) const;
@@ -67,6 +75,7 @@ class Levels {
   const ThreadPool pool_;
   std::vector<Nearest> of_vertex_;
   std::vector<Candidate> open_;
+  std::vector<uint64_t> closed_areas_;  // of each face; empty where they are not asked for
   Gain total_;
   double upper_ = std::numeric_limits<double>::infinity();
   double given_up_ = -1;  // the largest u that was

@@ -136,6 +136,7 @@ class Run {
     r.peak_candidates = levels_.peak();
     r.peak_bytes = levels_.peak() * kBytesOfCandidate;
     r.closed = total.closed;
+    r.areas = levels_.areas();
     return r;
   }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "vkhausdorff/limit.h"
 #include "vkhausdorff/mesh.h"
@@ -30,10 +31,14 @@ struct NativeOptions {
   /// The memory for candidates. Where they would take more, a level refines those with the smallest
   /// u and the others wait; where even that is too much, the smallest u are given up.
   uint64_t memory_bytes = uint64_t{3} << 30;
-  size_t threads = 1;  ///< 0: one for each core
+  size_t threads = 1;     ///< 0: one for each core
+  bool coverage = false;  ///< fill in NativeReport::areas
   /// Asked on the calling thread, after each level and about every 20 ms. False ends the run.
   std::function<bool(const NativeProgress&)> goes_on = {};
 };
+
+/// A face of A, in the units of NativeReport::areas.
+inline constexpr uint64_t kWholeArea = uint64_t{1} << 60;
 
 enum class NativeStatus {
   kClosed,     ///< upper - lower <= tolerance
@@ -57,6 +62,9 @@ struct NativeReport {
   bool has_witness = false;  ///< false: the run was ended before any sample
   uint32_t levels = 0;
   uint64_t candidates = 0, queries = 0, peak_candidates = 0, peak_bytes = 0;
+  /// Of each face of A what was closed, then of each what is open, in units of 1 / kWholeArea of
+  /// it: exact, since parts are split at integers. Empty where no coverage was asked for.
+  std::vector<uint64_t> areas;
   std::array<uint64_t, 7> closed{};  ///< by exact case, u1, u2, ha, u3, a risen bound, precision
 };
 

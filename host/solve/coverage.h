@@ -1,4 +1,4 @@
-// Checks whether a run lost any part of A, by sums that the device kept as integers.
+// Checks whether a run lost any part of A, by sums that it kept as integers.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,12 @@
 
 namespace vkh {
 
-/// `areas`: the closed part of each face of A, then the open part of each, in units of 2^-40.
+/// `areas`: the closed part of each face of A, then the open part of each, in units of which a face
+/// has `of_face`.
 /// `bounded`: whether the run claims an upper bound, for which no face may be waiting.
-CoverageCheck check_coverage(std::span<const uint64_t> areas, bool bounded);
+CoverageCheck check_coverage(std::span<const uint64_t> areas, uint64_t of_face, bool bounded);
+
+/// What a device counts with.
+inline constexpr uint64_t kDeviceArea = uint64_t{1} << 40;
 
 }  // namespace vkh

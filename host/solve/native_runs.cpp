@@ -11,6 +11,7 @@
 #include "host/native/cells.h"
 #include "host/native/closest.h"
 #include "host/native/native.h"
+#include "host/solve/coverage.h"
 #include "host/solve/native_cells.h"
 #include "host/solve/run_report.h"
 #include "vkhausdorff/error.h"
@@ -52,7 +53,8 @@ native::NativeOptions native_options(const SolveOptions& options, size_t threads
                             .known_lower = options.known_lower,
                             .limit = options.limit,
                             .level_limit = options.wave_limit,
-                            .threads = threads};
+                            .threads = threads,
+                            .coverage = options.engine.coverage};
   if (options.memory_bytes != 0) out.memory_bytes = options.memory_bytes;
   return out;
 }
@@ -111,7 +113,6 @@ void refuse_natively(const std::string& what) {
 }
 
 void check_native(const EngineOptions& options) {
-  if (options.coverage) refuse_natively("the check of coverage");
   const bool has_preset = !options.preset.empty() && options.preset != "default";
   if (has_preset || !options.enabled.empty() || !options.disabled.empty() || !options.certified)
     refuse_natively("another preset or switch");
@@ -222,6 +223,8 @@ Report NativeRuns::distance(const PairView& pair, const SolveOptions& options,
   out.status = status_of(found, out, watch.ended);
   out.device = description_;
   fill_counts(found, out);
+  if (options.engine.coverage)
+    out.coverage_check = check_coverage(found.areas, native::kWholeArea, found.levels > 0);
   if (found.has_witness) {
     const auto& [u, v, w] = found.witness.barycentric;
     fill_witness({found.witness.face_a, found.witness.face_b, {u, v, w}}, a, b, out);

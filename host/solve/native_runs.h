@@ -15,7 +15,7 @@ namespace vkh {
 
 /// Throws UsageError: `what` is done on a device alone.
 [[noreturn]] void refuse_natively(const std::string& what);
-/// Refuses pipelines that only devices have: switches, coverage.
+/// Refuses pipelines that only devices have: presets, switches.
 void check_native(const EngineOptions& options);
 
 /// Threads may share it.

@@ -174,7 +174,7 @@ Report report_of(const RunOutput& run, const Watch& watch) {
   fill_witness(run.report, pair.a, pair.b, out);
   // Before every face of A has a bound, `upper` is 3e38.
   if (options.engine.coverage)
-    out.coverage_check = check_coverage(run.areas, run.report.upper < 3e38f);
+    out.coverage_check = check_coverage(run.areas, kDeviceArea, run.report.upper < 3e38f);
   return out;
 }
 

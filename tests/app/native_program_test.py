@@ -184,7 +184,7 @@ class Native(unittest.TestCase):
 
     def test_what_needs_a_device_is_refused_before_the_files(self):
         refused = {
-            "distance": ("--verify", "--preset=paper", "--enable=u4", "--disable=u3"),
+            "distance": ("--preset=paper", "--enable=u4", "--disable=u3"),
         }
         for command, options in refused.items():
             for option in options:
@@ -194,6 +194,15 @@ class Native(unittest.TestCase):
                     self.assertEqual(done.stdout, "")
         self.assertIn("--threads", self.run_with("distance", "no.ply", "file.ply", "--threads=2", code=USAGE).stderr)
         self.assertIn("native", self.run_with("distance", "inner.ply", "outer.ply", "--device=native,0", code=USAGE).stderr)
+
+    def test_verify(self):
+        """The witness by brute force, and that no part of A is lost, also where the run is cut short."""
+        for more, code in (((), PASS), (("--waves=1", "--tol=1e-9"), OPEN), (("--memory=4K", "--tol=1e-9"), OPEN)):
+            with self.subTest(more):
+                found = self.answer("distance", "inner.ply", "outer.ply", "--verify", "--symmetric", *more, *NATIVE, code=code)
+                for direction in found["directions"]:
+                    check = direction["verified"]
+                    self.assertTrue(check["witness"] and check["coverage"], check)
 
     def test_limits_of_faces(self):
         count = len(bent(24, 0.05)[1])

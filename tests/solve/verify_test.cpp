@@ -8,7 +8,7 @@
 
 #include "host/solve/coverage.h"
 #include "tests/shapes/hard_pairs.h"
-#include "tests/support/kernel_bench.h"
+#include "tests/support/solver_bench.h"
 #include "tests/verification/model/arithmetic.h"
 #include "tests/verification/oracle/exact.h"
 #include "vkhausdorff/solver.h"
@@ -129,11 +129,10 @@ TEST_CASE("a witness that is no point of A is refused") {
   CHECK_FALSE(verify_witness(hard.pair.a, hard.pair.b, r).holds);
 }
 
-TEST_CASE("what the device certifies passes, and not when it is raised") {
-  Solver solver(test_device());
+TEST_CASE("what a run certifies passes, and not when it is raised") {
   for (const uint64_t seed : {1u, 2u, 3u, 4u}) {
     const HardPair hard = hard_pair(0, seed);
-    Report r = solver.distance(hard.pair.a, hard.pair.b);
+    Report r = solver().distance(hard.pair.a, hard.pair.b);
     const WitnessCheck check = verify_witness(hard.pair.a, hard.pair.b, r);
     CHECK(check.holds);
     CHECK(r.lower <= check.distance_upper);
@@ -144,23 +143,24 @@ TEST_CASE("what the device certifies passes, and not when it is raised") {
 
 TEST_CASE("parts of a face sum to the whole, or it is said which do not") {
   constexpr uint64_t kWhole = uint64_t{1} << 40;
-  CHECK(check_coverage(std::vector<uint64_t>{kWhole, 3, 0, kWhole - 3}, true).holds);
-  CHECK(check_coverage(std::vector<uint64_t>{kWhole, 3, 0, kWhole - 3}, true).whole == 2);
-  CHECK_FALSE(check_coverage(std::vector<uint64_t>{kWhole - 1, 0}, true).holds);
-  CHECK_FALSE(check_coverage(std::vector<uint64_t>{kWhole, 1}, true).holds);
-  CHECK_FALSE(
-      check_coverage(std::vector<uint64_t>{uint64_t{1} << 63, kWhole - (uint64_t{1} << 63)}, true)
-          .holds);
-  CHECK(check_coverage(std::vector<uint64_t>{0, kWhole, 0, 0}, false).waiting == 1);
-  CHECK(check_coverage(std::vector<uint64_t>{0, kWhole, 0, 0}, false).holds);
-  CHECK_FALSE(check_coverage(std::vector<uint64_t>{0, kWhole, 0, 0}, true).holds);
+  const auto check = [](const std::vector<uint64_t>& areas, bool bounded) {
+    return check_coverage(areas, kWhole, bounded);
+  };
+  CHECK(check({kWhole, 3, 0, kWhole - 3}, true).holds);
+  CHECK(check({kWhole, 3, 0, kWhole - 3}, true).whole == 2);
+  CHECK(check({kWhole, kWhole / 2, 0, kWhole / 2}, true).closed == 0.75);
+  CHECK_FALSE(check({kWhole - 1, 0}, true).holds);
+  CHECK_FALSE(check({kWhole, 1}, true).holds);
+  CHECK_FALSE(check({uint64_t{1} << 63, kWhole - (uint64_t{1} << 63)}, true).holds);
+  CHECK(check({0, kWhole, 0, 0}, false).waiting == 1);
+  CHECK(check({0, kWhole, 0, 0}, false).holds);
+  CHECK_FALSE(check({0, kWhole, 0, 0}, true).holds);
 }
 
-TEST_CASE("the device accounts for all of A, however the run ends") {
-  Solver solver(test_device());
+TEST_CASE("all of A is accounted for, however the run ends") {
   const auto check = [&](const HardPair& hard, SolveOptions options) {
     options.engine.coverage = true;
-    const Report r = solver.distance(hard.pair.a, hard.pair.b, options);
+    const Report r = solver().distance(hard.pair.a, hard.pair.b, options);
     REQUIRE(r.coverage_check);
     CAPTURE(r.coverage_check->whole);
     CAPTURE(r.coverage_check->waiting);

@@ -85,8 +85,8 @@ void sweep_pair(Solver& solver, const SweepOptions& args, uint64_t i, Totals& to
 }  // namespace
 
 int sweep_cells(const SweepOptions& args) {
-  Device device({.selector = args.device});
-  Solver solver(device);
+  Swept swept(args.device);
+  Solver& solver = swept.solver();
   Totals totals;
   for (uint64_t i = args.first; i < args.first + args.count; ++i)
     sweep_pair(solver, args, i, totals);
@@ -94,7 +94,7 @@ int sweep_cells(const SweepOptions& args) {
       "cell sweep: %llu pairs (seed %llu, from %llu) on %s: %llu faces and %llu cells at "
       "%llu points, %llu faces and %llu bounds of cells wrong; %llu surveys ended by time\n",
       static_cast<unsigned long long>(args.count), static_cast<unsigned long long>(args.seed),
-      static_cast<unsigned long long>(args.first), device.description().name.c_str(),
+      static_cast<unsigned long long>(args.first), solver.description().name.c_str(),
       static_cast<unsigned long long>(totals.faces),
       static_cast<unsigned long long>(totals.cells.cells),
       static_cast<unsigned long long>(totals.cells.samples),

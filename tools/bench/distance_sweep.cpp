@@ -265,7 +265,7 @@ void judge(const Families& families, uint64_t i, const Outcome& out, Totals& tot
               hex_float(out.reference.upper).c_str(), -out.exponent);
 }
 
-void print_summary(const SweepOptions& args, const Totals& t, const Device& device,
+void print_summary(const SweepOptions& args, const Totals& t, const Solver& solver,
                    double seconds) {
   for (const auto& [name, f] : t.families) {
     std::printf("  %-12s %6llu pairs, %6llu closed, %6llu by the reference, %llu violations\n",
@@ -281,7 +281,7 @@ void print_summary(const SweepOptions& args, const Totals& t, const Device& devi
       "solver %.1f s, all %.1f "
       "s\n",
       static_cast<unsigned long long>(args.count), static_cast<unsigned long long>(args.seed),
-      static_cast<unsigned long long>(args.first), device.description().name.c_str(),
+      static_cast<unsigned long long>(args.first), solver.description().name.c_str(),
       static_cast<unsigned long long>(t.violations), static_cast<unsigned long long>(t.closed),
       static_cast<unsigned long long>(t.exact), static_cast<unsigned long long>(t.repeated),
       static_cast<unsigned long long>(t.wide_references),
@@ -304,8 +304,8 @@ void print_gates(Totals& t) {
 
 int sweep_distances(const SweepOptions& args) {
   const Families families(args);
-  Device device({.selector = args.device});
-  Solver solver(device);
+  Swept swept(args.device);
+  Solver& solver = swept.solver();
   std::vector<Outcome> outcomes(args.count);
   const auto start = std::chrono::steady_clock::now();
   std::atomic<uint64_t> next = 0;
@@ -328,7 +328,7 @@ int sweep_distances(const SweepOptions& args) {
   for (uint64_t i = 0; i < args.count; ++i) judge(families, args.first + i, outcomes[i], totals);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   if (args.gates) print_gates(totals);
-  print_summary(args, totals, device, elapsed.count());
+  print_summary(args, totals, solver, elapsed.count());
   return totals.violations > 0 || totals.closed < args.least_closed ? 1 : 0;
 }
 

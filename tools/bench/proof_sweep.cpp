@@ -66,12 +66,12 @@ void choose_set(SolveOptions& options, uint64_t i, size_t families) {
   }
 }
 
-Way way_of(uint64_t i, const HardPair& hard) {
+Way way_of(uint64_t i, const HardPair& hard, bool is_native) {
   Way way;
   SolveOptions& o = way.options;
   o.tolerance = hard.tolerance;
   o.time_limit_s = kMostSeconds;
-  choose_set(o, i, family_names().size());
+  if (!is_native) choose_set(o, i, family_names().size());
   if (i % 5 == 2) o.memory_bytes = 1;  // as little as will do
   if (i % 7 == 3) o.wave_limit = static_cast<uint32_t>(i / 7 % 4 + 1);
   if (i % 11 == 5) o.time_limit_s = 1e-3;
@@ -91,8 +91,9 @@ struct Files {
 
 class Sweep {
  public:
-  Sweep(Solver& solver, const SweepOptions& args, const std::filesystem::path& folder)
-      : solver_(solver),
+  Sweep(Swept& swept, const SweepOptions& args, const std::filesystem::path& folder)
+      : swept_(swept),
+        solver_(swept.solver()),
         args_(args),
         files_{folder / "a.ply", folder / "b.ply", folder / "ab.vhc"},
         command_(args.check + " '" + files_.certificate.string() + "' '" + files_.a.string() +
@@ -101,7 +102,7 @@ class Sweep {
   void pair(uint64_t i) {
     const size_t families = family_names().size();
     const HardPair hard = hard_pair(i % families, args_.seed * 1000003 + i);
-    const Way way = way_of(i, hard);
+    const Way way = way_of(i, hard, swept_.is_native());
     const Mesh &a = hard.pair.a, &b = hard.pair.b;
     write_ply(files_.a, a);
     write_ply(files_.b, b);
@@ -153,6 +154,7 @@ class Sweep {
                           CertifiedDirection{both.b_to_a, back});
   }
 
+  const Swept& swept_;
   Solver& solver_;
   const SweepOptions& args_;
   Files files_;
@@ -191,9 +193,9 @@ class Pulse {
 
 int sweep_proofs(const SweepOptions& args) {
   const std::filesystem::path folder = new_folder(args);
-  Device device({.selector = args.device});
-  Solver solver(device);
-  Sweep all(solver, args, folder);
+  Swept swept(args.device);
+  Solver& solver = swept.solver();
+  Sweep all(swept, args, folder);
   Pulse pulse;
   for (uint64_t i = 0; i < args.count; ++i) {
     all.pair(args.first + i);
@@ -206,7 +208,7 @@ int sweep_proofs(const SweepOptions& args) {
       "accepted; %llu leaves, %llu of them cut, %llu bytes, %llu directions raised; ended",
       static_cast<Count>(t.certificates), static_cast<Count>(args.count),
       static_cast<Count>(args.seed), static_cast<Count>(args.first),
-      device.description().name.c_str(), static_cast<Count>(t.refused),
+      solver.description().name.c_str(), static_cast<Count>(t.refused),
       static_cast<Count>(t.leaves), static_cast<Count>(t.cut), static_cast<Count>(t.bytes),
       static_cast<Count>(t.raised));
   for (const auto& [name, count] : t.ended)

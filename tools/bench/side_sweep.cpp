@@ -185,8 +185,8 @@ int sweep_sides(const SweepOptions& args) {
         "meets\tedge\tdegenerate\ttwo_sided\tmany\tmean_lower\tmean_upper\tsamples\toff\t"
         "plain_ms\tsigned_ms\tsides_ms\n");
   const Mesh a = read_mesh(args.a), b = read_mesh(args.b);
-  Device device({.selector = args.device});
-  Solver solver(device);
+  Swept swept(args.device);
+  Solver& solver = swept.solver();
   const Checked checked = args.cells > 0 ? check_pair(solver, a, b, args) : Checked();
   SurveyResult plain, found;
   const double plain_ms = survey_ms(solver, a, b, args, false, plain);

@@ -48,7 +48,7 @@ int run(int argc, char** argv) {
   CLI::Option* count = app.add_option("--count", options.count, "Pairs");
   app.add_option("--first", options.first, "Number of the first pair");
   app.add_option("--seed", options.seed, "Of the whole sweep");
-  app.add_option("--device", options.device, "As for vkhausdorff");
+  app.add_option("--device", options.device, "As for vkhausdorff, or native");
   app.add_option("--spoil", options.spoil, "Spoil answers by so much: the sweep must see it");
   app.add_option("--family", options.family, "distances: 'patch' is the paper's section 6.1");
   app.add_option("--tol", options.tolerance, "distances: instead of each family's own tolerance");

@@ -4,7 +4,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+
+#include "vkhausdorff/solver.h"
 
 namespace vkh::bench {
 
@@ -29,6 +32,25 @@ struct SweepOptions {
   size_t effort = 200'000;  ///< sides: of the surveys; the cells checked are half as many
   size_t samples = 0;       ///< sides: of the area, for the figures
   bool head = false;        ///< sides: the columns' names first
+};
+
+/// What is swept: a device, or this processor alone where it is called native.
+class Swept {
+ public:
+  explicit Swept(const std::string& name) {
+    if (name == kNative) {
+      solver_.emplace(NativeProcessor{});
+    } else {
+      device_.emplace(DeviceRequest{.selector = name});
+      solver_.emplace(*device_);
+    }
+  }
+  Solver& solver() { return *solver_; }
+  bool is_native() const { return !device_; }
+
+ private:
+  std::optional<Device> device_;
+  std::optional<Solver> solver_;
 };
 
 /// Intervals against an independent solver in double precision with a rounding margin of its own,

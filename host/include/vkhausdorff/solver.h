@@ -74,8 +74,8 @@ class Solver {
   /// that either makes, both have.
   struct SharesPipelines {};
   Solver(SharesPipelines, const Solver& other);
-  /// A solver without a device. Presets, switches, the check of coverage and a run over several
-  /// solvers throw UsageError, and so does device(). What is prepared is kept for closest points;
+  /// A solver without a device. Presets, switches and a run over several solvers throw UsageError,
+  /// and so does device(). What is prepared is kept for closest points;
   /// distances of it are those of its mesh.
   explicit Solver(const NativeProcessor& processor);
   ~Solver();
