@@ -220,8 +220,8 @@ ROWS = [
 
     row("surely_within's share", TALLY, "(within - (1.0f - b.sure)) - 2.0f * kUlp", ["within - (1.0f - b.sure)", "within"], ON_TALLY),
     row("perhaps_within's share", TALLY, "min(share_within(b.below, up).up, b.may)", ["share_within(b.below, up).up"], ON_TALLY),
-    row("counts_down's share", TALLY, "return share_down(w, b.sure);", ["return w.down;"], ON_TALLY),
-    row("counts_up's share", TALLY, "return share_up(w, b.may);", ["return share_down(w, b.may);"], ON_TALLY),
+    row("part_down's share", TALLY, "if (share == 1.0f) return w.down;", ["if (share > 0.9f) return w.down;"], ON_TALLY),
+    row("part_up's share", TALLY, "if (share == 1.0f) return w.up;", ["if (share > 0.0f) return w.down;"], ON_TALLY),
     row("counts_to's cells", TALLY, "choose(b.sure == 1.0f, b.highest, 3.0e38f)", ["b.highest"], ON_TALLY),
     row("with_normals' cells", SCORE, "if (of_class != kClassCompared) {", ["if (of_class == kClassUnseen) {"], ON_TALLY),
 

@@ -123,8 +123,9 @@ class Sums {
     for (size_t k = first_edge(&gpu::SurveyEdge::down, least); k < edges_.size(); ++k) {
       const float down = edges_[k].down;
       if (down >= c.highest)
-        return add(gpu::kSurelyWhole + k, b.is_whole() ? w.down : lib::counts_down(w, b.all()));
-      add(gpu::kSurelyPart + k, lib::share_down(w, lib::surely_within(b.all(), down)));
+        return add(gpu::kSurelyWhole + k,
+                   b.is_whole() ? w.down : lib::part_down(w, lib::surely_within(b.all(), down)));
+      add(gpu::kSurelyPart + k, lib::part_down(w, lib::surely_within(b.all(), down)));
     }
   }
 
@@ -135,8 +136,9 @@ class Sums {
     for (size_t k = first_edge(&gpu::SurveyEdge::up, least); k < edges_.size(); ++k) {
       const float up = edges_[k].up;
       if (up >= most)
-        return add(gpu::kPerhapsWhole + k, b.is_whole() ? w.up : lib::counts_up(w, b.all()));
-      add(gpu::kPerhapsPart + k, lib::share_up(w, lib::perhaps_within(b.all(), up)));
+        return add(gpu::kPerhapsWhole + k,
+                   b.is_whole() ? w.up : lib::part_up(w, lib::perhaps_within(b.all(), up)));
+      add(gpu::kPerhapsPart + k, lib::part_up(w, lib::perhaps_within(b.all(), up)));
     }
   }
 

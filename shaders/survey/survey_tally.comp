@@ -52,14 +52,12 @@ void add_within(TallyBounds b, CellWeight w) {
     float down = edges_down[k];
     if (!is_surely_all && down >= b.above.least) {
       is_surely_all = down >= b.highest;
-      add((is_surely_all ? kSurelyWhole : kSurelyPart) + k,
-          is_surely_all ? counts_down(w, b) : share_down(w, surely_within(b, down)));
+      add((is_surely_all ? kSurelyWhole : kSurelyPart) + k, part_down(w, surely_within(b, down)));
     }
     if (!is_perhaps_all) {
       float up = edges_up[k];
       is_perhaps_all = up >= b.below.most;
-      add((is_perhaps_all ? kPerhapsWhole : kPerhapsPart) + k,
-          is_perhaps_all ? counts_up(w, b) : share_up(w, perhaps_within(b, up)));
+      add((is_perhaps_all ? kPerhapsWhole : kPerhapsPart) + k, part_up(w, perhaps_within(b, up)));
     }
     if (is_surely_all && is_perhaps_all) break;
   }

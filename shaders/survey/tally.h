@@ -113,14 +113,14 @@ VKH_FN float perhaps_within(TallyBounds b, float up) {
   return min(share_within(b.below, up).up, b.may);
 }
 
-// What of the weight counts, if all of the cell is within a distance.
-VKH_FN uvec2 counts_down(CellWeight w, TallyBounds b) {
-  if (b.sure == 1.0f) return w.down;
-  return share_down(w, b.sure);
+// The weight of such a share: of all of the cell no bit is lost.
+VKH_FN uvec2 part_down(CellWeight w, float share) {
+  if (share == 1.0f) return w.down;
+  return share_down(w, share);
 }
-VKH_FN uvec2 counts_up(CellWeight w, TallyBounds b) {
-  if (b.may == 1.0f) return w.up;
-  return share_up(w, b.may);
+VKH_FN uvec2 part_up(CellWeight w, float share) {
+  if (share == 1.0f) return w.up;
+  return share_up(w, share);
 }
 
 // All that is known to count is within the one distance; and nothing that may is nearer than the

@@ -211,11 +211,11 @@ TEST_CASE("tally.h: a cell that counts on a share of it counts no more, and no l
     const auto units = [](const glm::uvec2& x) {
       return mpq_class(static_cast<double>((uint64_t{x.y} << 32) + x.x));
     };
-    REQUIRE(units(lib::counts_down(w, some)) <= units(w.down) * sure);
-    REQUIRE(units(lib::counts_up(w, some)) >=
+    REQUIRE(units(lib::part_down(w, found.sure)) <= units(w.down) * sure);
+    REQUIRE(units(lib::part_up(w, found.may)) >=
             units(w.up) * mpq_class(static_cast<double>(found.may)));
-    REQUIRE(units(lib::counts_down(w, all)) == units(w.down));
-    REQUIRE(units(lib::counts_up(w, all)) == units(w.up));
+    REQUIRE(units(lib::part_down(w, 1)) == units(w.down));
+    REQUIRE(units(lib::part_up(w, 1)) == units(w.up));
     REQUIRE(lib::counts_to(all) == b.highest);
     REQUIRE(lib::counts_from(all) == all.below.least);
     REQUIRE(lib::counts_to(some) > 1e38f);
