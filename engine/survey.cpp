@@ -58,7 +58,11 @@ uint32_t blocks_of(uint32_t cells) { return (cells + gpu::kSurveyBlock - 1) / gp
 void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const Slice<gpu::Wide>& weights, float farthest) {
   const auto scope = rec.scope("survey begin");
-  rec.copy(weights, survey.weights);
+  if (weights.buffer != VK_NULL_HANDLE) {
+    rec.copy(weights, survey.weights);
+  } else {
+    rec.fill(survey.weights, 0);
+  }
   rec.fill(survey.faces_reached, 0, Order::kIndependent);
   const SurveyGiven given(p, survey, gpu::SurveyBeginPush{p.face_count, farthest});
   rec.run<k::SurveyBegin>(given, Items{p.face_count});
@@ -167,7 +171,7 @@ void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& s
   const auto scope = rec.scope("survey faces");
   const VkDeviceSize bytes = VkDeviceSize{p.face_count} * sizeof(uint32_t);
   const auto tell = [&](uint32_t classes, uint32_t reached, VkDeviceSize offset) {
-    if (reached != 0 && classes == gpu::kAllClasses) {
+    if (reached != 0 && (classes & gpu::kAllClasses) == gpu::kAllClasses) {
       rec.copy(survey.faces_reached, survey.faces_told);
     } else {
       rec.fill(survey.faces_told, 0);

@@ -47,8 +47,14 @@ extern "C" {
  * says that it helps. The structs that the caller's buffers hold are those of shaders/gpu_types.h,
  * SurveyPlan and SurveyTable. Calls need a context of VKH_CONTEXT_CELLS and, from
  * vkhCmdBeginSurvey on, a problem whose run has begun; they are recorded in their order, and each
- * waits for the one before it. Offsets are multiples of 256 bytes. Results are written in
- * ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use of them. */
+ * waits for the one before it. The run does not change. Offsets are multiples of 256 bytes.
+ *   Results are written in ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use
+ * of them, such as FRAGMENT_SHADER with SHADER_STORAGE_READ, for which the buffer has the usage
+ * STORAGE_BUFFER besides. Before they are written again, wait for other stages that read them by
+ * your barrier to COMPUTE_SHADER, as for a report.
+ *   The errors of A's faces, without plans: vkhCmdBeginSurvey without weights, vkhCmdBoundSurvey of
+ * all faces, vkhCmdWriteSurveyFaces, with a capacity of A's faces. Several problems may share a
+ * survey's memory, one after the other. */
 typedef struct VkhSurvey {
   VkhMemory memory;  /* vkhGetSurveySize; usage STORAGE_BUFFER, TRANSFER_SRC, TRANSFER_DST */
   uint32_t capacity; /* cells that it has room for: at least A's faces */
@@ -60,9 +66,9 @@ VKH_API VkDeviceSize vkhGetSurveySize(VkhContext context, uint32_t faceCount, ui
 
 typedef struct VkhSurveyBegin {
   VkBuffer weightBuffer; /* an integer of 64 bits for each face of A, all together under 2^62;
-                          * usage TRANSFER_SRC */
+                          * usage TRANSFER_SRC. Null: none; tallies and scores need them */
   VkDeviceSize weightOffset;
-  float farthest; /* no distance is above it */
+  float farthest; /* no distance is above it; FLT_MAX, if nothing is known */
 } VkhSurveyBegin;
 /* Makes each face of A a cell, without bounds: vkhCmdBoundSurvey has them, with live 0. */
 VKH_API void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer,
@@ -146,12 +152,14 @@ VKH_API void vkhCmdFindSurveyNormals(VkhContext context, VkCommandBuffer command
 
 typedef struct VkhSurveyFaces {
   uint32_t cells;          /* that there are */
-  uint32_t reachedClasses; /* a bit for each class of cells */
+  uint32_t reachedClasses; /* a bit for each class of cells; UINT32_MAX: all */
   uint32_t highestClasses;
   VkBuffer buffer; /* float[2 * faceCount]: some point of the face's cells is at least so far; then,
                     * of each face, none is farther; 0: it has no such cell; usage TRANSFER_DST */
   VkDeviceSize offset;
 } VkhSurveyFaces;
+/* Tells the error of each face: after all cells have been bounded, in the order of A's faces, so
+ * that a fragment shader that draws A finds its own at faceCount + gl_PrimitiveID. */
 VKH_API void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
                                     const VkhProblem* problem, const VkhSurvey* survey,
                                     const VkhSurveyFaces* faces);

@@ -64,6 +64,7 @@ Gpu::Gpu(const GpuRequest& request) {
   VkhContextCreateInfo info{};
   info.size = sizeof(info);
   info.device = {vkGetInstanceProcAddr, instance_, physical_, device_, kApiVersion};
+  info.flags = request.flags;
   if (vkhCreateContext(&info, &context_) != VKH_SUCCESS) throw std::runtime_error("no context");
   keep([this] { vkhDestroyContext(context_); });
 }
@@ -153,9 +154,12 @@ void Gpu::create_device(bool graphics) {
   scalar.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES;
   scalar.pNext = &synchronization;
   scalar.scalarBlockLayout = VK_TRUE;
+  VkPhysicalDeviceFeatures features{};
+  features.geometryShader = graphics ? VK_TRUE : VK_FALSE;  // gl_PrimitiveID belongs to it
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &scalar;
+  info.pEnabledFeatures = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
   const VkhDeviceInfo engine{vkGetInstanceProcAddr, instance_, physical_, VK_NULL_HANDLE,

@@ -27,8 +27,9 @@ struct Buffer {
 enum class Memory { kDevice, kHost };
 
 struct GpuRequest {
-  bool validation = false;  ///< with synchronization validation; messages go to stderr
-  bool graphics = false;    ///< the queue can draw
+  bool validation = false;    ///< with synchronization validation; messages go to stderr
+  bool graphics = false;      ///< the queue can draw, and fragment shaders know their primitive
+  VkhContextFlags flags = 0;  ///< of the engine's context
 };
 
 /// The device owns all that it creates. Only the extensions and features that the engine requires

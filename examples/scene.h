@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "engine/vkhausdorff_experimental.h"
 #include "examples/gpu.h"
 
 namespace example {
@@ -17,9 +18,8 @@ struct Level {
 
 struct SceneVertex {
   float position[3];
-  float distance;
   float normal[3];
-  float spare;
+  float spare[2];
 };
 
 class Scene {
@@ -54,6 +54,11 @@ class Pair {
   void certify(VkCommandBuffer commands, Hierarchy hierarchy, bool warm, uint32_t waves,
                float tolerance);
   void write_report(VkCommandBuffer commands, const Buffer& report, VkDeviceSize offset);
+  /// After certify: writes for each face of a that some point of it is at least so far from b, and
+  /// then for each what none exceeds, floats; in TRANSFER. Needs a gpu of VKH_CONTEXT_CELLS. No
+  /// point of a may be farther from b than `farthest`.
+  void write_face_errors(VkCommandBuffer commands, const VkhSurvey& survey, float farthest,
+                         const Buffer& errors, VkDeviceSize offset);
 
  private:
   VkhContext context_;

@@ -72,7 +72,7 @@ std::vector<SceneVertex> vertices_of(const ChainLevel& level) {
   std::vector<SceneVertex> vertices;
   for (size_t v = 0; v < normals.size(); ++v) {
     const glm::vec3 &p = level.points[v], &n = normals[v];
-    vertices.push_back({{p.x, p.y, p.z}, 0, {n.x, n.y, n.z}, 0});
+    vertices.push_back({{p.x, p.y, p.z}, {n.x, n.y, n.z}, {}});
   }
   return vertices;
 }
@@ -150,7 +150,8 @@ ChainFrame ChainRenderer::frame(float angle, float camera) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, mesh_);
     target_.view(commands, {{0, 0}, size});
     gpu_.bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-              {vertices_.handle, levels_.handle, choice_.handle, indices_.handle, choice_.handle},
+              {vertices_.handle, levels_.handle, choice_.handle, indices_.handle, choice_.handle,
+               choice_.handle},  // no bounds, which a plain view does not read
               bytes_of(look(size, camera, kRadius, angle, kEdges)));
     vkCmdDraw(commands, corners, 1, 0, 0);
     target_.end(commands);

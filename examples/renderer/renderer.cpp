@@ -10,9 +10,9 @@ namespace {
 #include "examples/caption_frag.h"
 #include "examples/caption_vert.h"
 #include "examples/choose_comp.h"
-#include "examples/colour_comp.h"
 #include "examples/mesh_frag.h"
 #include "examples/mesh_vert.h"
+#include "examples/pixels_comp.h"
 
 constexpr VkDeviceSize kReportStride = (sizeof(VkhReport) + 255) / 256 * 256;
 constexpr uint32_t kReportWords = kReportStride / 4;
@@ -22,12 +22,16 @@ constexpr float kExtent = 1.75f;  // no part of the mesh is farther from the ori
 struct Choice {
   VkDrawIndirectCommand draw;
   uint32_t level;
-  float fill[kLevels - 1];
+  float pixels[kLevels - 1];
   uint32_t text[kRows * kColumns];
 };
 
 struct ChoosePush {
   uint32_t report_words, frame;
+  float camera, pixel;
+};
+struct PixelsPush {
+  glm::vec3 to_eye;
   float camera, pixel;
 };
 struct CaptionPush {
@@ -41,21 +45,29 @@ Buffer filled(Gpu& gpu, const T& content) {
   return made;
 }
 
+/// Memory for the cells of a mesh's faces, one each, for one level after the other.
+VkhSurvey survey_of(Gpu& gpu, uint32_t faces) {
+  const VkDeviceSize size = vkhGetSurveySize(gpu.context(), faces, faces);
+  return {{gpu.buffer(size, Memory::kDevice).handle, 0, size}, faces};
+}
+
 }  // namespace
 
 Renderer::Renderer(const RendererOptions& options)
     : options_(options),
-      gpu_({.validation = options.validation, .graphics = true}),
+      gpu_({.validation = options.validation, .graphics = true, .flags = VKH_CONTEXT_CELLS}),
       scene_(gpu_, options.cells_u, options.cells_v, kLevels),
       pairs_{{{gpu_, scene_, 0, 1}, {gpu_, scene_, 0, 2}, {gpu_, scene_, 0, 3}}},
       target_(gpu_, options.width, options.height),
       reports_(gpu_.buffer(kReportStride * (kLevels - 1), Memory::kDevice)),
+      errors_(gpu_.buffer(bytes_of_errors() * (kLevels - 1), Memory::kDevice)),
       levels_(filled(gpu_, scene_.levels())),
       choice_(gpu_.buffer(sizeof(Choice), Memory::kDevice)),
       font_(filled(gpu_, font_columns())),
       readback_(gpu_.buffer(reports_.size + sizeof(Choice), Memory::kHost)),
+      survey_(survey_of(gpu_, scene_.levels()[0].face_count())),
       choose_(gpu_.compute_pipeline(k_choose_comp)),
-      colour_(gpu_.compute_pipeline(k_colour_comp)),
+      measure_(gpu_.compute_pipeline(k_pixels_comp)),
       mesh_(target_.pipeline(gpu_.shader(k_mesh_vert), gpu_.shader(k_mesh_frag), true)),
       caption_(target_.pipeline(gpu_.shader(k_caption_vert), gpu_.shader(k_caption_frag), false)) {}
 
@@ -72,18 +84,27 @@ VkRect2D Renderer::large_part() const {
   return {{0, 0}, {options_.width - height / 2, height}};
 }
 
+float Renderer::pixel(float distance) const {
+  return pixel_at(distance, large_part().extent.height);
+}
+
+// A multiple of 256, as the engine needs it: faces are a multiple of 128.
+VkDeviceSize Renderer::bytes_of_errors() const {
+  return 2 * sizeof(float) * VkDeviceSize{scene_.levels()[0].face_count()};
+}
+
 RenderedFrame Renderer::frame(uint32_t number, float time, float camera) {
-  const float pixel = pixel_at(camera - kExtent, large_part().extent.height);
+  const float nearest = pixel(camera - kExtent), angle = 0.6f + 0.1f * time;
   gpu_.run([&](VkCommandBuffer commands) {
     scene_.deform(commands, time);
-    certify(commands, number, pixel);
-    choose(commands, number, camera, pixel);
-    draw(commands, time, camera);
+    certify(commands, number, nearest);
+    choose(commands, number, angle, camera);
+    draw(commands, angle, camera);
     read_back(commands);
   });
   RenderedFrame result{};
   result.rgba = reinterpret_cast<const uint8_t*>(target_.pixels().mapped);
-  result.pixel = pixel;
+  result.pixel = nearest;
   for (uint32_t k = 0; k + 1 < kLevels; ++k)
     std::memcpy(&result.reports[k], readback_.mapped + k * kReportStride, sizeof(VkhReport));
   Choice choice;
@@ -101,26 +122,30 @@ void Renderer::certify(VkCommandBuffer commands, uint32_t number, float pixel) {
   for (uint32_t k = 0; k + 1 < kLevels; ++k) {
     pairs_[k].certify(commands, hierarchy, number > 0, options_.waves, 0.125f * pixel);
     pairs_[k].write_report(commands, reports_, k * kReportStride);
+    pairs_[k].write_face_errors(commands, survey_, 2 * kExtent, errors_, k * bytes_of_errors());
   }
 }
 
-void Renderer::choose(VkCommandBuffer commands, uint32_t number, float camera, float pixel) {
+void Renderer::choose(VkCommandBuffer commands, uint32_t number, float angle, float camera) {
   constexpr VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
   constexpr VkAccessFlags reads_writes = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT;
-  const auto after_compute = [&] {
-    barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, compute, reads_writes);
-  };
-  after_compute();  // this barrier is all that it takes from the engine's report to our shader
+  vkCmdFillBuffer(commands, choice_.handle, offsetof(Choice, pixels), sizeof(Choice::pixels), 0);
+  // This barrier is all that it takes from the engine's reports and errors of faces to our shaders.
+  barrier(commands, compute | VK_PIPELINE_STAGE_TRANSFER_BIT,
+          VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+          compute | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, reads_writes);
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, measure_);
+  gpu_.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+            {scene_.vertices().handle, levels_.handle, choice_.handle, scene_.index_buffer().handle,
+             errors_.handle},
+            bytes_of(PixelsPush{to_eye(angle), camera, pixel(1)}));
+  vkCmdDispatch(commands, (scene_.levels()[0].face_count() + 63) / 64, kLevels - 1, 1);
+  barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, compute, reads_writes);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, choose_);
   gpu_.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
             {reports_.handle, levels_.handle, choice_.handle},
-            bytes_of(ChoosePush{kReportWords, number, camera, pixel}));
+            bytes_of(ChoosePush{kReportWords, number, camera, pixel(camera - kExtent)}));
   vkCmdDispatch(commands, 1, 1, 1);
-  after_compute();
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, colour_);
-  gpu_.bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-            {scene_.vertices().handle, levels_.handle, choice_.handle}, bytes_of(0));
-  vkCmdDispatch(commands, (scene_.levels()[0].vertex_count() + 63) / 64, 1, 1);
   barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT,
           VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
               VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -128,15 +153,14 @@ void Renderer::choose(VkCommandBuffer commands, uint32_t number, float camera, f
               VK_ACCESS_TRANSFER_READ_BIT);
 }
 
-void Renderer::draw(VkCommandBuffer commands, float time, float camera) {
+void Renderer::draw(VkCommandBuffer commands, float angle, float camera) {
   const VkRect2D large = large_part();
   const uint32_t side = large.extent.height / 2;
   const auto x = static_cast<int32_t>(large.extent.width);
-  const float angle = 0.6f + 0.1f * time;
   target_.begin(commands);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, mesh_);
   draw_mesh(commands, large, camera, angle, kPlain);
-  draw_mesh(commands, {{x, 0}, {side, side}}, 3.9f, angle, kDistance);
+  draw_mesh(commands, {{x, 0}, {side, side}}, 3.9f, angle, kErrors);
   draw_mesh(commands, {{x, static_cast<int32_t>(side)}, {side, side}}, 3.9f, angle, kEdges);
   draw_caption(commands);
   target_.end(commands);
@@ -149,9 +173,9 @@ void Renderer::draw_mesh(VkCommandBuffer commands, VkRect2D part, float camera, 
   target_.view(commands, part);
   gpu_.bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
             {scene_.vertices().handle, levels_.handle, choice_.handle, scene_.index_buffer().handle,
-             reports_.handle, font_.handle},
+             reports_.handle, errors_.handle},
             bytes_of(push));
-  if (mode == kDistance) {
+  if (mode == kErrors) {
     vkCmdDraw(commands, 3 * scene_.levels()[0].face_count(), 1, 0, 0);
   } else {
     vkCmdDrawIndirect(commands, choice_.handle, offsetof(Choice, draw), 1, 0);
@@ -181,18 +205,28 @@ void Renderer::read_back(VkCommandBuffer commands) {
           VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
-std::vector<SceneVertex> Renderer::vertices(uint32_t level) {
-  const Level& l = scene_.levels()[level];
-  std::vector<SceneVertex> result(l.vertex_count());
-  const Buffer host = gpu_.buffer(result.size() * sizeof(SceneVertex), Memory::kHost);
+template <class T>
+std::vector<T> Renderer::read(const Buffer& from, VkDeviceSize offset, size_t count) {
+  std::vector<T> result(count);
+  const Buffer host = gpu_.buffer(count * sizeof(T), Memory::kHost);
   gpu_.run([&](VkCommandBuffer commands) {
-    const VkBufferCopy copy{l.first_vertex * sizeof(SceneVertex), 0, host.size};
-    vkCmdCopyBuffer(commands, scene_.vertices().handle, host.handle, 1, &copy);
+    const VkBufferCopy copy{offset, 0, host.size};
+    vkCmdCopyBuffer(commands, from.handle, host.handle, 1, &copy);
     barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
   });
   std::memcpy(result.data(), host.mapped, host.size);
   return result;
+}
+
+std::vector<SceneVertex> Renderer::vertices(uint32_t level) {
+  const Level& l = scene_.levels()[level];
+  return read<SceneVertex>(scene_.vertices(), l.first_vertex * sizeof(SceneVertex),
+                           l.vertex_count());
+}
+
+std::vector<float> Renderer::errors(uint32_t level) {
+  return read<float>(errors_, (level - 1) * bytes_of_errors(), bytes_of_errors() / sizeof(float));
 }
 
 }  // namespace example

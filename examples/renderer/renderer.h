@@ -1,6 +1,7 @@
 // A headless renderer on a device of its own: a mesh deforms on the device, the engine certifies
-// how far each level of detail is from it, and a shader draws the coarsest level whose upper bound
-// is under a pixel. The host only records.
+// how far it is from each level of detail, as a whole and face by face, and shaders colour the
+// faces by that and draw the coarsest level that is off by less than a pixel on every face. The
+// host only records.
 #pragma once
 
 #include <array>
@@ -38,6 +39,9 @@ class Renderer {
   RenderedFrame frame(uint32_t number, float time, float camera);
   /// A level's positions as the engine saw them in the last frame.
   std::vector<SceneVertex> vertices(uint32_t level);
+  /// How far each face of the mesh is from a level, 1 or more, as the last frame's shaders saw it:
+  /// some point of each is at least so far, then for each what none exceeds.
+  std::vector<float> errors(uint32_t level);
   const Scene& scene() const { return scene_; }
   Gpu& gpu() { return gpu_; }
   /// The place of the caption in the picture, and the pixels of one of its dots.
@@ -46,20 +50,25 @@ class Renderer {
 
  private:
   void certify(VkCommandBuffer commands, uint32_t number, float pixel);
-  void choose(VkCommandBuffer commands, uint32_t number, float camera, float pixel);
-  void draw(VkCommandBuffer commands, float time, float camera);
+  void choose(VkCommandBuffer commands, uint32_t number, float angle, float camera);
+  void draw(VkCommandBuffer commands, float angle, float camera);
   void draw_mesh(VkCommandBuffer commands, VkRect2D part, float camera, float angle, uint32_t mode);
   void draw_caption(VkCommandBuffer commands);
   void read_back(VkCommandBuffer commands);
   VkRect2D large_part() const;
+  float pixel(float distance) const;     // the size of one, in the camera's view
+  VkDeviceSize bytes_of_errors() const;  // of a level
+  template <class T>
+  std::vector<T> read(const Buffer& from, VkDeviceSize offset, size_t count);
 
   RendererOptions options_;
   Gpu gpu_;
   Scene scene_;
   std::array<Pair, kLevels - 1> pairs_;
   Target target_;
-  Buffer reports_, levels_, choice_, font_, readback_;
-  VkPipeline choose_, colour_, mesh_, caption_;
+  Buffer reports_, errors_, levels_, choice_, font_, readback_;
+  VkhSurvey survey_;
+  VkPipeline choose_, measure_, mesh_, caption_;
 };
 
 }  // namespace example

@@ -13,7 +13,7 @@ namespace example {
 constexpr float kFieldOfView = 0.8f;  // radians, vertical
 
 // The same values as in frame.glsl.
-enum Mode : uint32_t { kPlain = 0, kEdges = 1, kDistance = 2 };
+enum Mode : uint32_t { kPlain = 0, kEdges = 1, kErrors = 2 };
 
 struct MeshPush {
   glm::mat4 view_projection;
@@ -26,9 +26,14 @@ inline float pixel_at(float distance, uint32_t rows) {
   return 2 * std::tan(kFieldOfView / 2) * distance / static_cast<float>(rows);
 }
 
+/// From the origin to the eye, of length 1.
+inline glm::vec3 to_eye(float angle) {
+  return {0.8f * std::cos(angle), 0.8f * std::sin(angle), 0.6f};
+}
+
 /// Looks at the origin from `camera` away; no part of the scene is farther than `extent` from it.
 inline MeshPush look(VkExtent2D part, float camera, float extent, float angle, uint32_t mode) {
-  const glm::vec3 eye = camera * glm::vec3(0.8f * std::cos(angle), 0.8f * std::sin(angle), 0.6f);
+  const glm::vec3 eye = camera * to_eye(angle);
   const float aspect = static_cast<float>(part.width) / static_cast<float>(part.height);
   glm::mat4 projection = glm::perspective(kFieldOfView, aspect, 0.2f, camera + 2 * extent);
   projection[1][1] = -projection[1][1];  // Vulkan's y points down

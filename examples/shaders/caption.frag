@@ -1,5 +1,5 @@
-// Draws the caption's text, and behind each level's row a bar: its upper bound against one pixel,
-// which is the row's width.
+// Draws the caption's text, and behind each level's row a bar: the pixels that it is off, at most,
+// of which one is the row's width.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -27,7 +27,7 @@ void main() {
   uint column = p.x / 6u;
   if (row >= kRows || column >= kColumns) return;
   if (row > 0u && p.y % 10u < 9u) {
-    float fill = choice.fill[row - 1u];
+    float fill = uintBitsToFloat(choice.pixels[row - 1u]);
     vec3 bar = fill < 1.0 ? vec3(0.012, 0.13, 0.065) : vec3(0.19, 0.022, 0.022);
     bool inside = float(p.x) < min(fill, 1.0) * float(6u * kColumns);
     colour.rgb = inside ? bar : vec3(0.022, 0.025, 0.034);

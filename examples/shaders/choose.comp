@@ -1,6 +1,6 @@
-// Reads the engine's reports where the engine wrote them, picks the coarsest level whose
-// upper bound is under a pixel, writes its draw command, and the caption. It is one invocation. One
-// barrier stands between the engine and this; the host takes no part.
+// Picks the coarsest level that is off by less than a pixel everywhere, writes its draw command,
+// and the caption, with the engine's reports where the engine wrote them. It is one invocation. The
+// host takes no part.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -40,7 +40,6 @@ void put_word(uint a, uint b, uint c, uint d) {
 
 float lower_of(uint level) { return reports[(level - 1u) * report_words]; }
 float upper_of(uint level) { return reports[(level - 1u) * report_words + 1u]; }
-uint faces_of(uint level) { return 2u * levels[level].cells_u * levels[level].cells_v; }
 
 // "L1 02304 FACES  H IN 0.00362..0.00371  00.35 PX<", bounds rounded outward, to five decimals.
 void write_row(uint level) {
@@ -48,7 +47,7 @@ void write_row(uint level) {
   put(76u);
   put(48u + level);
   put(32u);
-  put_number(faces_of(level), 5u, 0u);
+  put_number(faces_of(levels[level]), 5u, 0u);
   put_word(32u, 70u, 65u, 67u);
   put_word(69u, 83u, 32u, 32u);
   put_word(72u, 32u, 73u, 78u);
@@ -59,7 +58,7 @@ void write_row(uint level) {
   put_number(uint(min(ceil(upper_of(level) * 1e5 * 1.000001), 999999.0)), 6u, 5u);
   put(32u);
   put(32u);
-  put_number(uint(min(ceil(100.0 * choice.fill[level - 1u]), 9999.0)), 4u, 2u);
+  put_number(uint(min(ceil(100.0 * uintBitsToFloat(choice.pixels[level - 1u])), 9999.0)), 4u, 2u);
   put_word(32u, 80u, 88u, level == choice.level ? 60u : 32u);
 }
 
@@ -86,10 +85,9 @@ void main() {
   for (uint i = 0u; i < kRows * kColumns; ++i) choice.text[i] = 32u;
   choice.level = 0u;
   for (uint level = 1u; level < kLevels; ++level) {
-    choice.fill[level - 1u] = upper_of(level) / pixel;
-    if (upper_of(level) < pixel) choice.level = level;
+    if (uintBitsToFloat(choice.pixels[level - 1u]) < 1.0) choice.level = level;
   }
-  choice.draw = DrawCommand(3u * faces_of(choice.level), 1u, 0u, 0u);
+  choice.draw = DrawCommand(3u * faces_of(levels[choice.level]), 1u, 0u, 0u);
   write_head();
   for (uint level = 1u; level < kLevels; ++level) write_row(level);
 }

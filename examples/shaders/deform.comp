@@ -21,5 +21,5 @@ void main() {
   vec3 p = surface_point(u, v, time);
   vec3 along_u = surface_point(u + 1e-2, v, time) - p;
   vec3 along_v = surface_point(u, v + 1e-2, time) - p;
-  vertices[first + i] = SceneVertex(p, 0.0, normalize(cross(along_u, along_v)), 0.0);
+  vertices[first + i] = SceneVertex(p, normalize(cross(along_u, along_v)), vec2(0.0));
 }

@@ -7,9 +7,9 @@ const uint kRows = 4u;
 const uint kColumns = 52u;
 
 // The ways to draw a mesh.
-const uint kModePlain = 0u;     // the chosen level, smooth
-const uint kModeEdges = 1u;     // the chosen level, flat, with its edges
-const uint kModeDistance = 2u;  // the finest level, coloured by its distance from the chosen one
+const uint kModePlain = 0u;   // the chosen level, smooth
+const uint kModeEdges = 1u;   // the chosen level, flat, with its edges
+const uint kModeErrors = 2u;  // the finest level, coloured by its distance from the chosen one
 
 struct Level {
   uint first_vertex, first_index, cells_u, cells_v;
@@ -22,8 +22,14 @@ struct DrawCommand {  // VkDrawIndirectCommand
 struct Choice {
   DrawCommand draw;  // of the chosen level
   uint level;
-  float fill[3];  // upper bound of levels 1, 2, 3 in pixels
+  uint pixels[3];  // a float's bits: how many pixels levels 1, 2, 3 are off, where it is most
   uint text[kRows * kColumns];
 };
+
+uint faces_of(Level level) { return 2u * level.cells_u * level.cells_v; }
+
+// The place of the upper end of a finest face's distance from a level: of each level, the engine
+// has written the lower ends of all faces before the upper ones.
+uint error_at(uint level, uint faces, uint face) { return (2u * level - 1u) * faces + face; }
 
 #endif

@@ -1,11 +1,14 @@
-// Draws the finest level coloured by its distance from the chosen one, in units of that one's upper
-// bound; the chosen one flat with its edges; or plain.
+// Draws the finest level, each face coloured by the distance from the chosen one that none of its
+// points exceeds, in units of the chosen one's upper bound; the chosen one flat with its edges; or
+// plain.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
 #include "examples/shaders/frame.glsl"
 
 layout(scalar, binding = 4) readonly buffer Reports { float reports[]; };
+layout(scalar, binding = 5) readonly buffer Errors { float errors[]; };
+layout(scalar, binding = 1) readonly buffer Levels { Level levels[]; };
 layout(scalar, binding = 2) readonly buffer ChoiceBlock { Choice choice; };
 layout(scalar, push_constant) uniform Push {
   mat4 view_projection;
@@ -16,8 +19,7 @@ layout(scalar, push_constant) uniform Push {
 
 layout(location = 0) in vec3 normal;
 layout(location = 1) in vec3 world;
-layout(location = 2) in float distance_in;
-layout(location = 3) in vec3 edge;
+layout(location = 2) in vec3 edge;
 layout(location = 0) out vec4 colour;
 
 // Dark blue, teal, yellow, as in perceptual maps: lightness rises with the value.
@@ -36,9 +38,12 @@ void main() {
   float shade = 0.12 + 0.18 * (0.5 + 0.5 * n.z) + 0.70 * max(dot(n, light), 0.0);
   float gloss = 0.3 * pow(max(dot(n, normalize(light + to_eye)), 0.0), 40.0);
   vec3 base = vec3(0.78, 0.80, 0.84);
-  if (mode == kModeDistance) {
-    float upper = choice.level == 0u ? 1.0 : reports[(choice.level - 1u) * report_words + 1u];
-    base = map(clamp(distance_in / upper, 0.0, 1.0));
+  if (mode == kModeErrors) {
+    float error = 0.0;  // of the finest level
+    if (choice.level > 0u)
+      error = errors[error_at(choice.level, faces_of(levels[0]), gl_PrimitiveID)] /
+              reports[(choice.level - 1u) * report_words + 1u];
+    base = map(clamp(error, 0.0, 1.0));
   }
   if (mode == kModeEdges) {
     vec3 width = fwidth(edge);

@@ -17,15 +17,13 @@ layout(scalar, push_constant) uniform Push {
 
 layout(location = 0) out vec3 normal;
 layout(location = 1) out vec3 world;
-layout(location = 2) out float distance_out;
-layout(location = 3) out vec3 edge;
+layout(location = 2) out vec3 edge;
 
 void main() {
-  Level level = levels[mode == kModeDistance ? 0u : choice.level];
+  Level level = levels[mode == kModeErrors ? 0u : choice.level];
   SceneVertex v = vertices[level.first_vertex + indices[level.first_index + gl_VertexIndex]];
   normal = v.normal;
   world = v.position;
-  distance_out = v.distance;
   int corner = gl_VertexIndex % 3;
   edge = vec3(corner == 0, corner == 1, corner == 2);
   gl_Position = view_projection * vec4(v.position, 1.0);

@@ -4,9 +4,8 @@
 
 struct SceneVertex {
   vec3 position;
-  float distance;  // from the level that is drawn, for the colour
   vec3 normal;
-  float spare;
+  vec2 spare;
 };
 
 #endif

@@ -1,5 +1,6 @@
-// The renderer in frames: its intervals against the CPU reference, its choice of level, its
-// pictures, its caption as read from them; and a chain of simplify's.
+// The renderer in frames: its intervals against the CPU reference, its faces' errors against the
+// host's survey, its choice of level, its pictures, their colours, and its caption as read from
+// them; and a chain of simplify's.
 #include "examples/renderer/renderer.h"
 
 #include <doctest/doctest.h>
@@ -20,9 +21,11 @@
 
 #include "examples/renderer/chain.h"
 #include "examples/renderer/font.h"
+#include "examples/renderer/view.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/api_bench.h"
 #include "tests/support/program.h"
+#include "tests/support/solver_bench.h"
 
 namespace {
 
@@ -103,6 +106,58 @@ void check_row(const std::string& text, const VkhReport& report) {
   CHECK(upper >= static_cast<double>(report.upper));
   CHECK(upper - lower <= static_cast<double>(report.upper - report.lower) + 3e-5);
   CHECK(lower > 0);
+}
+
+/// By how many pixels a level is off where it is off by most, at `time`.
+float pixels_off(Renderer& r, uint32_t level, float time, float camera) {
+  const auto rows = static_cast<uint32_t>(r.caption_part().offset.y);
+  const glm::vec3 towards = example::to_eye(0.6f + 0.1f * time);
+  const Mesh finest = mesh_of(r, 0);
+  const std::vector<float> errors = r.errors(level);
+  float most = 0;
+  for (size_t i = 0; i < finest.faces.size(); ++i) {
+    float depth = camera;
+    for (int k = 0; k < 3; ++k) {
+      const glm::vec3 corner = finest.vertices[finest.faces[i][k]];
+      depth = std::min(depth, camera - glm::dot(corner, towards));
+    }
+    most = std::max(most, errors[finest.faces.size() + i] / example::pixel_at(depth, rows));
+  }
+  return most;
+}
+
+/// What mesh.frag's colour map has for x, in linear light.
+glm::vec3 colour_of(float x) {
+  const glm::vec3 low(0.24f, 0.27f, 0.62f), middle(0.10f, 0.62f, 0.58f), high(0.99f, 0.88f, 0.18f);
+  const glm::vec3 base =
+      x < 0.5f ? glm::mix(low, middle, 2 * x) : glm::mix(middle, high, 2 * x - 1);
+  return glm::pow(base, glm::vec3(2.2f));
+}
+
+/// The sine of the angle between two colours without their grey: light and gloss do not change it.
+float hue_apart(glm::vec3 a, glm::vec3 b) {
+  a -= (a.x + a.y + a.z) / 3;
+  b -= (b.x + b.y + b.z) / 3;
+  return glm::length(glm::cross(a, b)) / std::max(glm::length(a) * glm::length(b), 1e-9f);
+}
+
+/// The places of corners in a square picture, and their depths.
+std::vector<glm::vec3> projected(const Mesh& mesh, const glm::mat4& matrix, uint32_t side) {
+  std::vector<glm::vec3> places;
+  for (const DVec3& v : mesh.vertices) {
+    const glm::vec4 p = matrix * glm::vec4(glm::vec3(v), 1);
+    places.push_back({(p.x / p.w + 1) / 2 * static_cast<float>(side),
+                      (p.y / p.w + 1) / 2 * static_cast<float>(side), p.z / p.w});
+  }
+  return places;
+}
+
+/// Whether triangle a b c has p, and there a depth that is less than p's.
+bool hides(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 p) {
+  const auto turn = [](glm::vec3 u, glm::vec3 v) { return u.x * v.y - u.y * v.x; };
+  const float whole = turn(b - a, c - a);
+  const float u = turn(p - a, c - a) / whole, v = turn(b - a, p - a) / whole;
+  return u >= 0 && v >= 0 && u + v <= 1 && a.z + u * (b.z - a.z) + v * (c.z - a.z) < p.z - 1e-5f;
 }
 
 /// Pixels of the large view that are not background, and different colours in the whole picture.
@@ -219,29 +274,97 @@ TEST_CASE("frames: intervals against the reference, the level, the picture and i
   for (uint32_t i = 0; i < 4; ++i) {
     CAPTURE(i);
     const RenderedFrame f = r.frame(i, 0.3f * static_cast<float>(i), cameras[i]);
-    uint32_t coarsest = 0;
     const Seen seen = look(r, f);
     for (uint32_t row = 0; row < example::kRows; ++row)
       CHECK(read_row(r, f, row) == f.caption[row]);
     CHECK(f.caption[0].substr(0, 10) == "FRAME 00" + std::to_string(i) + " ");
-    for (uint32_t k = 1; k < example::kLevels; ++k) {
-      check_row(f.caption[k], f.reports[k - 1]);
-      if (f.reports[k - 1].upper < f.pixel) coarsest = k;
-    }
-    CHECK(f.drawn == coarsest);
+    for (uint32_t k = 1; k < example::kLevels; ++k) check_row(f.caption[k], f.reports[k - 1]);
     drawn.insert(f.drawn);
     CHECK(seen.covered > 60);
     CHECK(seen.covered < covered);  // the camera moves away
     CHECK(seen.colours.size() > 300);
     covered = seen.covered;
+    uint32_t coarsest = 0;
     const Mesh finest = mesh_of(r, 0);  // last: it submits
     for (uint32_t k = 1; k < example::kLevels; ++k) {
       CAPTURE(k);
       check_true(f.reports[k - 1], reference_hausdorff(finest, mesh_of(r, k), 1e-5));
+      const float off = pixels_off(r, k, 0.3f * static_cast<float>(i), cameras[i]);
+      if (off < 1) coarsest = k;
+      const size_t at = f.caption[k].find(" PX");
+      REQUIRE(at != std::string::npos);
+      CHECK(std::stof(f.caption[k].substr(at - 5, 5)) ==
+            doctest::Approx(std::min(off, 99.99f)).epsilon(0.012));
     }
+    CHECK(f.drawn == coarsest);
   }
   CHECK(drawn.size() >= 3);
   CHECK(r.gpu().validation_messages() == 0);
+}
+
+TEST_CASE("faces have the errors that the host's survey finds, and narrow ones") {
+  Renderer& r = renderer();
+  const RenderedFrame f = r.frame(0, 0.7f, 8);
+  const Mesh finest = mesh_of(r, 0);
+  for (uint32_t k = 1; k < example::kLevels; ++k) {
+    CAPTURE(k);
+    const std::vector<float> errors = r.errors(k);
+    const Field field = surveyed(finest, mesh_of(r, k), {.faces = true}).field;
+    const size_t faces = finest.faces.size();
+    REQUIRE(errors.size() == 2 * faces);
+    size_t apart = 0;
+    double least = 0, most = 0, known = 0;
+    for (size_t i = 0; i < faces; ++i) {
+      const double reached = static_cast<double>(errors[i]);
+      const double highest = static_cast<double>(errors[faces + i]);
+      apart += !(reached <= field.upper[i] && field.lower[i] <= highest);
+      least += reached;
+      most += highest;
+      known += field.upper[i];
+    }
+    CHECK(apart == 0);
+    CHECK(most < 1.25 * known);
+    CHECK(least > 0.75 * known);
+    CHECK(known > 0.1 * static_cast<double>(f.reports[k - 1].lower) * static_cast<double>(faces));
+  }
+  CHECK(r.gpu().validation_messages() == 0);
+}
+
+TEST_CASE("a face's colour is that of its error") {
+  constexpr uint32_t width = 640, height = 480;
+  Renderer r({.width = width, .height = height, .cells_u = 24, .cells_v = 24});
+  const RenderedFrame f = r.frame(0, 0, 200);
+  REQUIRE(f.drawn > 0);
+  const auto side = static_cast<uint32_t>(r.caption_part().offset.y) / 2;
+  const Mesh finest = mesh_of(r, 0);
+  const std::vector<float> errors = r.errors(f.drawn);
+  const size_t faces = finest.faces.size();
+  const glm::mat4 matrix =
+      example::look({side, side}, 3.9f, 1.75f, 0.6f, example::kErrors).view_projection;
+  const std::vector<glm::vec3> places = projected(finest, matrix, side);
+  const auto expected = [&](size_t face) {
+    return colour_of(std::min(errors[faces + face] / f.reports[f.drawn - 1].upper, 1.0f));
+  };
+  size_t seen = 0, own = 0, of_another = 0;
+  for (size_t i = 0; i < faces; ++i) {
+    const UVec3 c = finest.faces[i];
+    const glm::vec3 middle = (places[c.x] + places[c.y] + places[c.z]) / 3.0f;
+    if (std::any_of(finest.faces.begin(), finest.faces.end(), [&](const UVec3& o) {
+          return hides(places[o.x], places[o.y], places[o.z], middle);
+        }))
+      continue;
+    const auto x = static_cast<uint32_t>(middle.x) + width - side,
+               y = static_cast<uint32_t>(middle.y);
+    const uint8_t* p = f.rgba + 4 * (y * width + x);
+    const glm::vec3 light = glm::pow(glm::vec3(p[0], p[1], p[2]) / 255.0f, glm::vec3(2.2f));
+    ++seen;
+    own += hue_apart(light, expected(i)) < 0.1f;
+    of_another += hue_apart(light, expected((i + faces / 2) % faces)) < 0.1f;
+  }
+  INFO(seen, " faces seen, colours of their own ", own, ", of another's ", of_another);
+  CHECK(seen > faces / 4);
+  CHECK(own > 9 * seen / 10);
+  CHECK(of_another < seen / 2);
 }
 
 TEST_CASE("the program writes its frames as pictures, and a line of CSV each") {

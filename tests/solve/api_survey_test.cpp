@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -122,7 +123,9 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
       vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &first, nullptr);
       vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &rest, nullptr);
       vkhCmdTallySurvey(context.get(), c, &pair.problem(), &bench.survey, &tally);
+      const VkhSurveyFaces same{cells, UINT32_MAX, UINT32_MAX, found, 98304};
       vkhCmdWriteSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &told);
+      vkhCmdWriteSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &same);
       vkhCmdReadSurvey(context.get(), c, &pair.problem(), &bench.survey, &read);
       record_host_barrier(c);
     });
@@ -135,6 +138,7 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
     const auto found = bench.read<gpu::Cell>(131072, cells);
     const auto bounds = bench.read<VkhCellBounds>(1048576, cells);
     const auto of_faces = bench.read<float>(65536, 2 * size_t{faces});
+    CHECK(of_faces == bench.read<float>(98304, of_faces.size()));
     std::vector<double> area(faces, 0);
     for (uint32_t i = 0; i < cells; ++i) {
       const lib::Bary3 t = corners_of(found[i]);
@@ -150,6 +154,38 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
       CHECK(of_faces[found[i].face] <= of_faces[faces + found[i].face]);
     }
     CHECK(std::all_of(area.begin(), area.end(), [](double x) { return x == 1; }));
+  }
+}
+
+TEST_CASE("errors of faces need no weights, and nothing that is known before") {
+  const ContextHandle context = make_context(VKH_DEVICE_KIND_NARROW);
+  ApiMesh a(icosphere(1.0, 1)), b(translated(icosphere(1.1, 2), {0.1, 0.2, 0.05}));
+  ApiPair pair(a, b, 1e-3f, context.get());
+  const auto faces = static_cast<uint32_t>(a.mesh().faces.size());
+  SurveyBench bench(context.get(), faces, faces);
+  const auto errors = [&](const VkhSurveyBegin& begin) {
+    pair.run([&](VkCommandBuffer c) {
+      const VkhSurveyBound bound{0, faces, 1, 0};
+      const VkhSurveyFaces told{faces, UINT32_MAX, UINT32_MAX, bench.found.handle(), 0};
+      pair.build(c);
+      pair.begin(c);
+      vkhCmdBeginSurvey(context.get(), c, &pair.problem(), &bench.survey, &begin);
+      vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &bound, nullptr);
+      vkhCmdWriteSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &told);
+      record_host_barrier(c);
+    });
+    return bench.read<float>(0, 2 * size_t{faces});
+  };
+  const std::vector<float> without = errors({VK_NULL_HANDLE, 0, FLT_MAX});
+  CHECK(without == errors(bench.begin(4)));
+  for (uint32_t i = 0; i < faces; ++i) {
+    Mesh face;
+    face.faces = {{0, 1, 2}};
+    for (int k = 0; k < 3; ++k) face.vertices.push_back(a.mesh().vertices[a.mesh().faces[i][k]]);
+    const Interval exact = reference_hausdorff(face, b.mesh(), 1e-6);
+    CHECK(static_cast<double>(without[i]) <= exact.upper);
+    CHECK(static_cast<double>(without[faces + i]) >= exact.lower);
+    CHECK(without[faces + i] < 4);
   }
 }
 
