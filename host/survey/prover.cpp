@@ -82,6 +82,7 @@ class Prover {
         a_(job.a, exponent_),
         b_(job.b, exponent_),
         upper_(target(report_.upper)),
+        spare_(std::ldexp(spare_of(report_), exponent_)),
         batch_(pair.on_cpu ? 1024 : 65536) {
     if (upper_ <= 0) same_ = same_faces(job.b, job.a);
   }
@@ -106,9 +107,18 @@ class Prover {
   // No part of a face is proven to 0 where an edge of B crosses it in its plane: so many parts that
   // are so small may take more and more.
   static constexpr uint8_t kVerySmall = 24, kSearchAgain = 8;
+  // Where the run's bound is as tight as doubles make it, over an area, halves of it come close to
+  // it, and there are millions of them: then parts take what the tolerance leaves.
+  static constexpr uint8_t kPiled = 12;
   static constexpr double kDoubt = 1 + 0x1p-20;         // eight ulp of a float
   static constexpr size_t kMostSeen = size_t{1} << 27;  // faces, in all searches: seconds
   static constexpr size_t kManySmall = size_t{1} << 12;
+
+  // Half of what the interval may still be wider, in the files' units.
+  static double spare_of(const Report& report) {
+    const double left = add_down(report.tolerance, -width_up(report.lower, report.upper));
+    return std::isfinite(left) ? std::max(left / 2, 0.0) : 0;
+  }
 
   // A length of the files in the scaled meshes, less what these are off: rounded down.
   double target(double upper) const {
@@ -139,7 +149,8 @@ class Prover {
         raised = std::max(raised, gives_up ? give_up(some, tree) : advance(some, tree, halves));
       }
       open = std::move(halves);
-      if (open.size() > kManySmall && open.front().depth >= kVerySmall) more_ *= 4;
+      if (open.size() <= kManySmall || open.front().depth < kPiled) continue;
+      more_ = open.front().depth < kVerySmall ? std::max(more_, spare_) : 4 * more_;
     }
     result_.blocks += tree.written();
     result_.bytes = result_.blocks.size();
@@ -330,6 +341,7 @@ class Prover {
   double delta_;
   ScaledMesh a_, b_;
   double upper_;                // bound in the scaled meshes
+  const double spare_;          // more than that, and the interval is still as narrow as asked
   std::vector<uint32_t> same_;  // where that is 0: one face of B for each of A
   double more_ = kMore;
   bool has_few_ = false;

@@ -1,10 +1,12 @@
 // A Solver without a device: what it does as one with a device does, and what it refuses.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <thread>
 
+#include "tests/shapes/hard_pairs.h"
 #include "tests/shapes/shapes.h"
 #include "vkhausdorff/asking.h"
 #include "vkhausdorff/error.h"
@@ -175,6 +177,25 @@ TEST_CASE("a native stream, and a question of C++") {
   REQUIRE(checked.a_to_b.coverage_check);
   CHECK(checked.a_to_b.coverage_check->holds);
   CHECK(checked.a_to_b.witness_check->holds);
+}
+
+// About all of a surface is as far as its farthest point, and the bound as tight as doubles make it:
+// halves of a part come so close to it that none is proven before millions are.
+TEST_CASE("a native bound of many points that are equally far takes what the tolerance leaves") {
+  const std::vector<std::string> names = family_names();
+  const auto offset = std::find(names.begin(), names.end(), "offset") - names.begin();
+  const HardPair hard = hard_pair(static_cast<size_t>(offset), 67 * 1000003 + 83);
+  Solver solver{NativeProcessor{}};
+  SolveOptions options;
+  options.tolerance = hard.tolerance;
+  const auto& [a, b] = hard.pair;
+  const Report r = solver.distance(a, b, options);
+  const auto goes_on = [](size_t leaves) { return leaves < 100'000; };
+  const Proof proof =
+      prove(solver, {.a = a, .b = b, .report = r, .options = options, .goes_on = goes_on});
+  CHECK(proof.unproven == 0);
+  CHECK(proof.upper >= r.upper);
+  CHECK(proof.upper - r.lower <= r.tolerance);
 }
 
 // The bounds of a run are as tight as doubles allow. Were the prover less so, it would halve parts
