@@ -179,8 +179,8 @@ TEST_CASE("a native stream, and a question of C++") {
   CHECK(checked.a_to_b.witness_check->holds);
 }
 
-// About all of a surface is as far as its farthest point, and the bound as tight as doubles make it:
-// halves of a part come so close to it that none is proven before millions are.
+// About all of a surface is as far as its farthest point, and the bound as tight as doubles make
+// it: halves of a part come so close to it that none is proven before millions are.
 TEST_CASE("a native bound of many points that are equally far takes what the tolerance leaves") {
   const std::vector<std::string> names = family_names();
   const auto offset = std::find(names.begin(), names.end(), "offset") - names.begin();
