@@ -22,6 +22,7 @@
 #include "host/solve/held_pairs.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/all_cells.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/asking.h"
 #include "vkhausdorff/length.h"
@@ -63,8 +64,9 @@ Corners3 any_triangle(Random& random) {
 // (c - 1)^2 + r^2 = m.m - 2 c + 1, and c^2 n.n = (m.n)^2.
 TEST_CASE("unit normals are as near as they say, by exact arithmetic") {
   Random random(91);
+  constexpr int kTriangles = kIsSanitized ? 2000 : 20000;
   int known = 0;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < kTriangles; ++i) {
     const Corners3 t = any_triangle(random);
     const UnitNormal found = unit_normal(t);
     if (found.off >= 1) continue;
@@ -76,7 +78,7 @@ TEST_CASE("unit normals are as near as they say, by exact arithmetic") {
     // c >= half
     REQUIRE((half <= 0 || half * half * dot(n, n) <= along * along));
   }
-  CHECK(known > 5000);
+  CHECK(known > kTriangles / 4);
 }
 
 TEST_CASE("cosines of angles: 60 degrees is a half, and all agree to 90") {
@@ -130,6 +132,8 @@ Told told_of(SurveyCells& cells, uint32_t i) {
 
 // Where a point has closest faces at one distance but for rounding, the better one may or may not
 // be among them: only what any of them says is checked.
+constexpr uint32_t kStride = kIsSanitized ? 25 : 5;
+
 void check_cells(const Mesh& a, const Mesh& b, double degrees, std::array<int, 3>& counts) {
   const std::vector<glm::dvec3> of_a = normals_of(a), of_b = normals_of(b);
   const double limit = std::cos(degrees * std::numbers::pi / 180);
@@ -137,7 +141,7 @@ void check_cells(const Mesh& a, const Mesh& b, double degrees, std::array<int, 3
     const Normals normals(pair, degrees);
     const CellsRead all = cells_with_normals(pair, normals.search(), 4 * a.faces.size());
     Random random(17);
-    for (uint32_t i = random.below(5); i < all.cells.size(); i += 5) {
+    for (uint32_t i = random.below(kStride); i < all.cells.size(); i += kStride) {
       const Told told = told_of(*pair.cells, i);
       ++counts[static_cast<size_t>(told)];
       const lib::Bary3 t = corners_of(all.cells[i]);
@@ -168,7 +172,7 @@ TEST_CASE("where normals agree on all of a cell, or on none of it, they do at it
                 degrees, counts);
   }
   MESSAGE("agree, differ, open: " << counts[0] << ", " << counts[1] << ", " << counts[2]);
-  for (const int count : counts) CHECK(count > 200);
+  for (const int count : counts) CHECK(count > 1000 / static_cast<int>(kStride));
 }
 
 // --- Closed forms ---
@@ -278,7 +282,7 @@ TEST_CASE("a face of subnormal squares is excused by none that is not as close")
 // Points of A by area, with the best of the faces that are closest to each: their mean is within
 // four standard deviations of the figure, by a fixed seed.
 TEST_CASE("figures hold points of the surface, as near as their number tells") {
-  constexpr int kPoints = 4000;
+  constexpr int kPoints = kIsSanitized ? 400 : 4000;
   const auto check = [](const Mesh& a, const Mesh& b, double degrees) {
     const Metrics m = metrics_between(a, b, degrees, "100abs", 40000);
     const std::vector<glm::dvec3> of_a = normals_of(a), of_b = normals_of(b);
