@@ -130,10 +130,10 @@ Told told_of(SurveyCells& cells, uint32_t i) {
   return some_from < 1e38 ? Told::kOpen : Told::kDiffer;
 }
 
+constexpr uint32_t kStride = kIsSanitized ? 25 : 5;  // of the cells that are looked at
+
 // Where a point has closest faces at one distance but for rounding, the better one may or may not
 // be among them: only what any of them says is checked.
-constexpr uint32_t kStride = kIsSanitized ? 25 : 5;
-
 void check_cells(const Mesh& a, const Mesh& b, double degrees, std::array<int, 3>& counts) {
   const std::vector<glm::dvec3> of_a = normals_of(a), of_b = normals_of(b);
   const double limit = std::cos(degrees * std::numbers::pi / 180);
