@@ -24,12 +24,11 @@ class ComparedCell {
       all.least = std::min(all.least, one.cosine.least);
       all.most = std::max(all.most, one.cosine.most);
     }
-    Comparison compared = comparison_of(all);
+    Comparison compared = comparison_of(all, given_.push.limit_down, given_.push.limit_up);
     for (const NearFace& one : near_) {
       const bool is_less = one.cosine.least < all.most - kNarrowCosine;
       const double counts = is_less ? excused(one) : one.cosine.least;
-      compared = with_face(compared, one.cosine, counts, one.share, given_.push.limit_down,
-                           given_.push.limit_up);
+      compared = with_face(compared, one.cosine, counts, one.share);
     }
     return agreement_of(compared);
   }

@@ -65,11 +65,17 @@ class Sums {
   Sums(const gpu::SurveyPlan& plan, int unit)
       : plan_(plan), edges_(plan.edges, plan.edge_count), unit_(unit) {}
 
-  void add(uint32_t place, const gpu::Cell& cell, const gpu::CellBounds& bounds,
-           const gpu::Wide& of_face, uint32_t of_class, const gpu::CellAgreement& found) {
+  struct Told {
+    const gpu::CellBounds& bounds;
+    uint32_t of_class;
+    const gpu::CellAgreement& found;
+  };
+
+  void add(uint32_t place, const gpu::Cell& cell, const gpu::Wide& of_face, const Told& told) {
     const lib::CellWeight w =
         lib::cell_weight({of_face.low, of_face.high}, lib::halvings_of(corners_of(cell)));
-    Bounded b{bounds, of_class, found, plan_};
+    const gpu::CellBounds& bounds = told.bounds;
+    Bounded b{told, plan_};
     if (plan_.moments != 0) add_moments(lib::within_most(b.all(), plan_.most), w);
     const float to = b.is_whole() ? bounds.highest : lib::counts_to(b.all());
     const float from = b.is_whole() ? lib::lowest_of(bounds) : lib::counts_from(b.all());
@@ -100,14 +106,12 @@ class Sums {
  private:
   /// Makes a cell's bounds for the tally where they are needed first: an edge may cut no cell.
   struct Bounded {
-    const gpu::CellBounds& bounds;
-    const uint32_t of_class;
-    const gpu::CellAgreement& found;
+    const Told& told;
     const gpu::SurveyPlan& plan;
     std::optional<lib::TallyBounds> made = {};
 
     const lib::TallyBounds& all() {
-      if (!made) made = bounds_of(bounds, of_class, found, plan);
+      if (!made) made = bounds_of(told.bounds, told.of_class, told.found, plan);
       return *made;
     }
     // All of the cell counts, but where normals are compared.
@@ -118,7 +122,7 @@ class Sums {
 
   // Goes over the edges that cut the cell, and to the first one that it is all within.
   void add_surely_within(Bounded& b, const lib::CellWeight& w) {
-    const gpu::CellBounds& c = b.bounds;
+    const gpu::CellBounds& c = b.told.bounds;
     const float least = std::min({c.upper_a, c.upper_b, c.upper_c});
     for (size_t k = first_edge(&gpu::SurveyEdge::down, least); k < edges_.size(); ++k) {
       const float down = edges_[k].down;
@@ -130,7 +134,7 @@ class Sums {
   }
 
   void add_perhaps_within(Bounded& b, const lib::CellWeight& w) {
-    const gpu::CellBounds& c = b.bounds;
+    const gpu::CellBounds& c = b.told.bounds;
     const float least = std::min({c.lower_a, c.lower_b, c.lower_c});
     const float most = std::max({c.lower_a, c.lower_b, c.lower_c});
     for (size_t k = first_edge(&gpu::SurveyEdge::up, least); k < edges_.size(); ++k) {
@@ -337,8 +341,8 @@ const gpu::SurveyTable& NativeCells::tally(const gpu::SurveyPlan& plan, int unit
     Sums some(plan, unit);
     for (size_t i = begin; i < end; ++i) {
       if (lib::is_among(classes_[i], plan.classes))
-        some.add(static_cast<uint32_t>(i), cells_[i], bounds_[i], weights_[cells_[i].face],
-                 classes_[i], agreements_[i]);
+        some.add(static_cast<uint32_t>(i), cells_[i], weights_[cells_[i].face],
+                 {bounds_[i], classes_[i], agreements_[i]});
     }
     const std::lock_guard lock(adding);
     all.add(some);

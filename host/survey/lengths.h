@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/solve/cells.h"
-#include "vkhausdorff/report.h"
+#include "vkhausdorff/field.h"
 
 namespace vkh {
 

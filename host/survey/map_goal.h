@@ -1,6 +1,7 @@
 // The goals of a map, and the map from a survey's cells.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 

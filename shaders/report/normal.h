@@ -137,14 +137,17 @@ VKH_FN float closest_share(CellFrame t, Surface s, Above above, float moved) {
 
 // Sums over faces that may be closest. Each addition is rounded up by itself.
 struct Comparison {
-  float low, high;       // no cosine of a face is less, or more
-  float least;           // of those that count
-  float loss, gain;      // of the mean, from `high` and from `low`
-  float doubtful, fine;  // shares of faces that may not agree, and of those that may
+  float limit_down, limit_up;  // normals agree from a cosine between them on
+  float low, high;             // no cosine of a face is less, or more
+  float least;                 // of those that count
+  float loss, gain;            // of the mean, from `high` and from `low`
+  float doubtful, fine;        // shares of faces that may not agree, and of those that may
 };
 
-VKH_FN Comparison comparison_of(Cosine all) {
+VKH_FN Comparison comparison_of(Cosine all, float limit_down, float limit_up) {
   Comparison c;
+  c.limit_down = limit_down;
+  c.limit_up = limit_up;
   c.low = all.least;
   c.high = all.most;
   c.least = 1.0f;
@@ -161,14 +164,12 @@ VKH_FN float more_by(float x, float share, float value) {
 }
 
 // Adds a face. `counts`: the least cosine that counts where it is closest, at least its own.
-// Normals agree from a cosine between `limit_down` and `limit_up` on.
-VKH_FN Comparison with_face(Comparison c, Cosine of, float counts, float share, float limit_down,
-                            float limit_up) {
+VKH_FN Comparison with_face(Comparison c, Cosine of, float counts, float share) {
   c.least = min(c.least, counts);
   c.loss = more_by(c.loss, share, max(c.high - counts, 0.0f));
   c.gain = more_by(c.gain, share, of.most - c.low);
-  if (counts < limit_up) c.doubtful = more_by(c.doubtful, share, 1.0f);
-  if (of.most >= limit_down) c.fine = more_by(c.fine, share, 1.0f);
+  if (counts < c.limit_up) c.doubtful = more_by(c.doubtful, share, 1.0f);
+  if (of.most >= c.limit_down) c.fine = more_by(c.fine, share, 1.0f);
   return c;
 }
 

@@ -75,11 +75,11 @@ Agreement compared(CellFrame t, FaceNormal m) {
     all = Cosine(min(all.least, c.least), max(all.most, c.most));
     seen += c.most >= c.least ? 1u : 0u;
   }
-  Comparison found = comparison_of(all);
+  Comparison found = comparison_of(all, push.limit_down, push.limit_up);
   for (uint k = 0u; k < near_count; ++k) {
     Cosine c = cosine_with(m, near[k]);
     float counts = c.least < all.most - kNarrowCosine ? excused(t, m, near[k]) : c.least;
-    found = with_face(found, c, counts, shares[k], push.limit_down, push.limit_up);
+    found = with_face(found, c, counts, shares[k]);
     seen += counts >= c.least ? 1u : 0u;
   }
   if (seen != 2u * near_count) return any_agreement();

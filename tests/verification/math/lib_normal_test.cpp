@@ -314,11 +314,11 @@ TEST_CASE("agreement_of: the mean and the share that agrees, whatever the pieces
     lib::Cosine all{1, 0};
     for (const lib::Cosine& c : right.faces)
       all = {std::min(all.least, c.least), std::max(all.most, c.most)};
-    lib::Comparison sums = lib::comparison_of(all);
+    lib::Comparison sums = lib::comparison_of(all, limit, limit);
     for (size_t k = 0; k < right.faces.size(); ++k) {
       if (right.shares[k] == 0) continue;
       const float share = std::min(float_up(std::nextafter(right.shares[k].get_d(), 2.0)), 1.0f);
-      sums = lib::with_face(sums, right.faces[k], right.faces[k].least, share, limit, limit);
+      sums = lib::with_face(sums, right.faces[k], right.faces[k].least, share);
     }
     const lib::Agreement found = lib::agreement_of(sums);
     narrow += found.most - found.least < 0.5f * (all.most - all.least) ? 1 : 0;
