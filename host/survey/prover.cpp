@@ -108,8 +108,9 @@ class Prover {
   // are so small may take more and more.
   static constexpr uint8_t kVerySmall = 24, kSearchAgain = 8;
   // Where the run's bound is as tight as doubles make it, over an area, halves of it come close to
-  // it, and there are millions of them: then parts take what the tolerance leaves.
-  static constexpr uint8_t kPiled = 12;
+  // it, and there are millions of them: then parts take more and more of what the tolerance leaves.
+  static constexpr size_t kPiled = size_t{1} << 15;
+  static constexpr double kMoreATurn = 64;
   static constexpr double kDoubt = 1 + 0x1p-20;         // eight ulp of a float
   static constexpr size_t kMostSeen = size_t{1} << 27;  // faces, in all searches: seconds
   static constexpr size_t kManySmall = size_t{1} << 12;
@@ -149,8 +150,10 @@ class Prover {
         raised = std::max(raised, gives_up ? give_up(some, tree) : advance(some, tree, halves));
       }
       open = std::move(halves);
-      if (open.size() <= kManySmall || open.front().depth < kPiled) continue;
-      more_ = open.front().depth < kVerySmall ? std::max(more_, spare_) : 4 * more_;
+      const uint8_t depth = open.empty() ? 0 : open.front().depth;
+      if (depth >= kVerySmall && open.size() > kManySmall) more_ *= 4;
+      if (depth >= kSmall && depth < kVerySmall && open.size() > kPiled)
+        more_ = std::max(more_, std::min(kMoreATurn * more_, spare_));
     }
     result_.blocks += tree.written();
     result_.bytes = result_.blocks.size();
