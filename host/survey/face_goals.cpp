@@ -8,7 +8,7 @@
 namespace vkh {
 namespace {
 
-constexpr auto kAny = static_cast<float>(kAnyDistance);
+constexpr auto kAnyFloat = static_cast<float>(kAnyDistance);
 
 }  // namespace
 
@@ -23,9 +23,9 @@ double FaceGoals::tolerance() const {
 gpu::SurveyPlan FaceGoals::plan(double /*whole*/) const {
   gpu::SurveyPlan plan{};
   plan.faces = 1;
-  plan.face_tolerance = -kAny;
-  std::fill(std::begin(plan.face_within), std::end(plan.face_within), -kAny);
-  plan.face_beyond = kAny;
+  plan.face_tolerance = -kAnyFloat;
+  std::fill(std::begin(plan.face_within), std::end(plan.face_within), -kAnyFloat);
+  plan.face_beyond = kAnyFloat;
   if (is_by_verdict_) {
     std::fill(std::begin(plan.face_within), std::end(plan.face_within),
               edge_of(asked_.threshold(asked_.options.limit.within)).down);

@@ -117,7 +117,7 @@ class Metrics(unittest.TestCase):
         self.assertTrue(0.99 < metrics["normal_consistency"]["lower"] <= 1 <= metrics["normal_consistency"]["upper"])
         self.assertEqual(metrics["within"][0]["f1_normals"]["lower"], 1)
         metrics = json.loads(self.run_program("metrics", "a.obj", "wall.obj", *words, "--json", "--figures", "f1_normals").stdout)["metrics"]
-        self.assertLess(metrics["normal_consistency"]["upper"], 1e-9)
+        self.assertLess(metrics["normal_consistency"]["upper"], 5e-6)  # floats
         self.assertEqual(metrics["within"][0]["f1_normals"]["upper"], 0)
         text = self.run_program("metrics", "a.obj", "b.obj", *words).stdout
         self.assertRegex(text, r"(?m)^  f1_normals +100 % within 0\.3 and 20 degrees$")
