@@ -15,7 +15,8 @@ constexpr size_t kVerticesOfPiece = 256;
 
 std::array<uint32_t, 3> three(const uvec3& v) { return {v.x, v.y, v.z}; }
 
-// Of a part of a face, in units of 1 / kWholeArea: exact, since a step is at most 2^30 in size.
+// Returns the area of a part of a face, in units of 1 / kWholeArea of the face: exact, since a step
+// is at most 2^30 in size.
 uint64_t area_of(const Bary3& t) {
   const auto step = [](uint from, uint to) { return int64_t{to} - int64_t{from}; };
   const int64_t area = step(t.a.x, t.b.x) * step(t.a.y, t.c.y) -  //

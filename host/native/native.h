@@ -62,8 +62,9 @@ struct NativeReport {
   bool has_witness = false;  ///< false: the run was ended before any sample
   uint32_t levels = 0;
   uint64_t candidates = 0, queries = 0, peak_candidates = 0, peak_bytes = 0;
-  /// Of each face of A what was closed, then of each what is open, in units of 1 / kWholeArea of
-  /// it: exact, since parts are split at integers. Empty where no coverage was asked for.
+  /// The area of each face of A that was closed, then that which is open, in units of 1 /
+  /// kWholeArea of the face: exact, since parts are split at integers. Empty where no coverage was
+  /// asked for.
   std::vector<uint64_t> areas;
   std::array<uint64_t, 7> closed{};  ///< by exact case, u1, u2, ha, u3, a risen bound, precision
 };

@@ -13,7 +13,7 @@ namespace vkh {
 /// `bounded`: whether the run claims an upper bound, for which no face may be waiting.
 CoverageCheck check_coverage(std::span<const uint64_t> areas, uint64_t of_face, bool bounded);
 
-/// What a device counts with.
+/// A whole face, in the units in which a device adds up areas.
 inline constexpr uint64_t kDeviceArea = uint64_t{1} << 40;
 
 }  // namespace vkh

@@ -144,7 +144,11 @@ void add_middles(bool only_shares, Statistics& s) {
   const auto put = [](Enclosure& e) {
     if (std::isfinite(e.upper)) e.estimate = e.lower + (e.upper - e.lower) / 2;
   };
-  for (AreaWithin& band : s.bands) put(band.share);
+  for (AreaWithin& band : s.bands) {
+    put(band.share);
+    if (band.agreeing) put(*band.agreeing);
+  }
+  if (s.normal_cosine) put(*s.normal_cosine);
   if (only_shares) return;
   for (Enclosure* figure : {&s.mean, &s.rms}) put(*figure);
   for (Percentile& p : s.percentiles) put(p.distance);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace vkh {
+
 NormalGoals::NormalGoals(const SurveyOptions& options, const SurveyedPair& pair, WaveSurvey& waves)
     : options_(options),
       waves_(waves),

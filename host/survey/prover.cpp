@@ -115,9 +115,12 @@ class Prover {
   static constexpr size_t kMostSeen = size_t{1} << 27;  // faces, in all searches: seconds
   static constexpr size_t kManySmall = size_t{1} << 12;
 
-  // Half of what the interval may still be wider, in the files' units.
-  static double spare_of(const Report& report) {
-    const double left = add_down(report.tolerance, -width_up(report.lower, report.upper));
+  // Half of what the interval may still be wider, in the files' units. What is within a limit stays
+  // so.
+  static double spare_of(const Report& r) {
+    double left = add_down(r.tolerance, -width_up(r.lower, r.upper));
+    if (r.limit.within > 0 && r.upper <= r.limit.within)
+      left = std::min(left, add_down(r.limit.within, -r.upper));
     return std::isfinite(left) ? std::max(left / 2, 0.0) : 0;
   }
 

@@ -81,6 +81,7 @@ void Surveying::run(SurveyResult& result) {
   if (options_.map && areas_.is_positive()) add_map(result);
   waves_->end_sides();
   if (has_normals(options_, pair_) && result.statistics) add_normals(result);
+  if (result.statistics) add_middles(has_only_shares(options_), *result.statistics);
   result.ended = std::max(result.ended, meter_.ended());
   if (options_.statistics && !result.statistics)
     result.ended = std::max(result.ended, SurveyEnd::kBits);
@@ -170,7 +171,6 @@ SurveyEnd Surveying::refine_sides() {
 
 void Surveying::add_figures(SurveyResult& result) {
   result.statistics = statistics_of(*waves_, areas_, pair_, options_);
-  if (result.statistics) add_middles(has_only_shares(options_), *result.statistics);
 }
 
 void Surveying::add_sides_of_all(SurveyResult& result) {
@@ -184,13 +184,10 @@ void Surveying::add_normals(SurveyResult& result) {
   NormalGoals goals(options_, pair_, *waves_);
   result.ended = std::max(result.ended, waves_->refine(goals, meter_.effort()));
   waves_->end_normals();
-  const auto with_middle = [](const Enclosure& e) {
-    return Enclosure{e.lower, e.upper, e.lower + (e.upper - e.lower) / 2};
-  };
   Statistics& s = *result.statistics;
   const Tallied found = goals.figures();
-  s.normal_cosine = with_middle(found.moments.mean);
-  for (size_t i = 0; i < s.bands.size(); ++i) s.bands[i].agreeing = with_middle(found.shares[i]);
+  s.normal_cosine = found.moments.mean;
+  for (size_t i = 0; i < s.bands.size(); ++i) s.bands[i].agreeing = found.shares[i];
 }
 
 void Surveying::add_map(SurveyResult& result) {

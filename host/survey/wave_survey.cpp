@@ -76,18 +76,25 @@ bool WaveSurvey::bound_fresh(size_t count) {
   return true;
 }
 
-// Looks at all cells in submissions, until the caller ends it, if he may; returns whether he did
-// not.
-template <class Look>
-bool WaveSurvey::look_at_cells(bool may_end, const Look& look) {
+// Goes over all cells in submissions of this size for as long as `goes_on`; returns whether it saw
+// all of them.
+template <class GoesOn, class Look>
+bool WaveSurvey::go_over_cells(BatchSize& size, const GoesOn& goes_on, const Look& look) {
   for (size_t first = 0; first < cells_.count();) {
-    if (may_end && !meter_.is_wanted()) return false;
-    const size_t count = std::min(meter_.looks().size(), cells_.count() - first);
+    if (!goes_on()) return false;
+    const size_t count = std::min(size.size(), cells_.count() - first);
     const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
-    meter_.looks().note(count, meter_.on_device([&] { look(some); }));
+    size.note(count, meter_.on_device([&] { look(some); }));
     first += count;
   }
   return true;
+}
+
+// Looks at all cells, until the caller ends it, if he may; returns whether he did not.
+template <class Look>
+bool WaveSurvey::look_at_cells(bool may_end, const Look& look) {
+  return go_over_cells(
+      meter_.looks(), [&] { return !may_end || meter_.is_wanted(); }, look);
 }
 
 bool WaveSurvey::score(const gpu::SurveyPlan& plan) {
@@ -148,31 +155,22 @@ bool WaveSurvey::find_normals(const NormalSearch& search) {
   return find_fresh_normals();
 }
 
-// Goes over all cells: those that have a side are left at once.
+// Cells that have a side are left at once.
 bool WaveSurvey::find_fresh_sides() {
   if (!sides_) return true;
-  for (size_t first = 0; first < cells_.count();) {
-    if (!meter_.sides_go_on()) return false;
-    const size_t count = std::min(meter_.sides().size(), cells_.count() - first);
-    const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
-    const double ms = meter_.on_device([&] { cells_.find_sides(*sides_, sides_above_, some); });
-    meter_.sides().note(count, ms);
-    meter_.note_sides(ms);
-    first += count;
-  }
-  return true;
+  const double before = meter_.device_ms();
+  const bool are_all = go_over_cells(
+      meter_.sides(), [&] { return meter_.sides_go_on(); },
+      [&](const CellRange& some) { cells_.find_sides(*sides_, sides_above_, some); });
+  meter_.note_sides(meter_.device_ms() - before);
+  return are_all;
 }
 
 // The same for normals, which take about as long as sides.
 bool WaveSurvey::find_fresh_normals() {
-  for (size_t first = 0; has_normals_ && first < cells_.count();) {
-    if (!meter_.goes_on()) return false;
-    const size_t count = std::min(meter_.sides().size(), cells_.count() - first);
-    const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
-    meter_.sides().note(count, meter_.on_device([&] { cells_.find_normals(some); }));
-    first += count;
-  }
-  return true;
+  return !has_normals_ || go_over_cells(
+                              meter_.sides(), [&] { return meter_.goes_on(); },
+                              [&](const CellRange& some) { cells_.find_normals(some); });
 }
 
 // Splits the cells that matter most, and bounds their parts; otherwise says why not.

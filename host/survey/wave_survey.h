@@ -69,6 +69,8 @@ class WaveSurvey : public AreaDistances {
  private:
   bool bound_fresh(size_t count);
   bool split(WaveGoals& goals, size_t effort, SurveyEnd& ended);
+  template <class GoesOn, class Look>
+  bool go_over_cells(BatchSize& size, const GoesOn& goes_on, const Look& look);
   template <class Look>
   bool look_at_cells(bool may_end, const Look& look);
   bool score(const gpu::SurveyPlan& plan);

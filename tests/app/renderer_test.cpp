@@ -126,7 +126,7 @@ float pixels_off(Renderer& r, uint32_t level, float time, float camera) {
   return most;
 }
 
-/// What mesh.frag's colour map has for x, in linear light.
+/// The colour of x in mesh.frag's map, in linear light.
 glm::vec3 colour_of(float x) {
   const glm::vec3 low(0.24f, 0.27f, 0.62f), middle(0.10f, 0.62f, 0.58f), high(0.99f, 0.88f, 0.18f);
   const glm::vec3 base =

@@ -117,7 +117,7 @@ std::vector<glm::dvec3> normals_of(const Mesh& mesh) {
   return normals;
 }
 
-// What a cell alone tells: normals agree on all of it, on none of it, or that is not known.
+// A cell alone tells that normals agree on all of it, or on none of it, or leaves that open.
 enum class Told : uint8_t { kAgree, kDiffer, kOpen };
 
 Told told_of(SurveyCells& cells, uint32_t i) {

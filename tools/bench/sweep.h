@@ -34,7 +34,7 @@ struct SweepOptions {
   bool head = false;        ///< sides: the columns' names first
 };
 
-/// What is swept: a device, or this processor alone where it is called native.
+/// The device that is swept, or this processor alone where it is called native.
 class Swept {
  public:
   explicit Swept(const std::string& name) {

@@ -186,7 +186,7 @@ TEST_CASE("tally.h: moments within a distance enclose those of what is within it
   }
 }
 
-// Of what is within, what does not count may all be there; and of what may count all may be within.
+// The part that does not count may all lie in what is within; and so may all that may count.
 TEST_CASE("tally.h: a cell that counts on a share of it counts no more, and no less") {
   Random random(31);
   for (int i = 0; i < 20'000; ++i) {
