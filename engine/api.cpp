@@ -274,20 +274,27 @@ bool record_in_step(Recorder& together, const Rules& rules, const VkhTask* tasks
   return true;
 }
 
-// A call of a survey: its rules, and the problem and the streams that it works on.
+// A call of a survey: its rules, and the problem and the streams that it works on. `cells`: how
+// many there are, or will be; 0: as many as A has faces.
 struct SurveyCall {
-  SurveyCall(VkhContext context, VkCommandBuffer commands, const VkhProblem& problem,
-             const VkhSurvey& survey, uint64_t cells)
-      : rules(*context, commands),
-        is_kept(rules.survey(problem, survey, cells) &&
-                gpu::bounds_cells(context->limits.switches, context->limits.wide)),
-        p(view_problem(*context, problem)),
-        streams(view_survey(survey, p.face_count)) {}
+  SurveyCall(VkhContext context, VkCommandBuffer commands, const VkhProblem* problem,
+             const VkhSurvey* survey, uint64_t cells = 0)
+      : rules(*context, commands) {
+    if (!VKH_POINTERS(rules, "a survey: problem and survey: not null",
+                      problem != nullptr && survey != nullptr) ||
+        !rules.survey(*problem, *survey, std::max<uint64_t>(cells, problem->a.faceCount)) ||
+        !gpu::bounds_cells(context->limits.switches, context->limits.wide) ||
+        survey->size != sizeof(VkhSurvey))
+      return;
+    p = view_problem(*context, *problem);
+    streams = view_survey(*survey, p.face_count);
+    is_kept = true;
+  }
 
   bool records() const { return is_kept && is_built(p); }
 
   Rules rules;
-  bool is_kept;
+  bool is_kept = false;
   Problem p;
   SurveyStreams streams;
 };
@@ -537,18 +544,70 @@ VkDeviceSize vkhGetSurveySize(VkhContext, uint32_t faceCount, uint32_t capacity)
 }
 
 void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
-                       const VkhSurvey* survey, const VkhSurveyBegin* begin) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, problem->a.faceCount);
+                       const VkhSurvey* survey, VkhProfile* profile) {
+  vkh::SurveyCall call(context, commandBuffer, problem, survey);
+  if (!call.records() || !call.rules.profile(profile)) return;
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  vkh::record_survey_begin(rec, call.p, call.streams);
+}
+
+// NOLINTNEXTLINE(readability-function-size)
+void vkhCmdAdvanceSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                         const VkhProblem* problem, const VkhSurvey* survey, uint32_t waves,
+                         VkhProfile* profile) {
+  vkh::SurveyCall call(context, commandBuffer, problem, survey);
+  if (!call.records() || !call.rules.profile(profile)) return;
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  vkh::record_survey_waves(rec, call.p, call.streams, *survey, waves);
+}
+
+// NOLINTNEXTLINE(readability-function-size)
+void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
+                       const VkhSurvey* survey, VkBuffer buffer, VkDeviceSize offset,
+                       VkhProfile* profile) {
+  vkh::SurveyCall call(context, commandBuffer, problem, survey);
+  if (!call.is_kept || !call.rules.survey_output(buffer, offset) || !call.rules.profile(profile))
+    return;
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  const vkh::Slice<vkh::gpu::SurveyWave> report{buffer, offset, sizeof(VkhSurveyReport)};
+  if (call.records()) {
+    vkh::record_survey_report(rec, call.p, call.streams, *survey, report);
+  } else {
+    vkh::record_unbuilt_survey_report(rec, report);
+  }
+}
+
+// NOLINTNEXTLINE(readability-function-size)
+void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
+                            const VkhProblem* problem, const VkhSurvey* survey, VkBuffer buffer,
+                            VkDeviceSize offset, VkhProfile* profile) {
+  vkh::SurveyCall call(context, commandBuffer, problem, survey);
+  if (!call.is_kept || !call.rules.survey_output(buffer, offset) || !call.rules.profile(profile))
+    return;
+  vkh::Recorder rec(*context, commandBuffer, profile);
+  if (call.records()) {
+    const VkhSurveyFaces all{survey->capacity, vkh::gpu::kAllClasses, vkh::gpu::kAllClasses, buffer,
+                             offset};
+    vkh::record_survey_faces(rec, call.p, call.streams, all);
+  } else {
+    vkh::record_unbuilt_faces(rec, {buffer, offset, 2 * problem->a.faceCount * sizeof(float)});
+  }
+}
+
+void vkhCmdBeginSurveyCells(VkhContext context, VkCommandBuffer commandBuffer,
+                            const VkhProblem* problem, const VkhSurvey* survey,
+                            const VkhSurveyCells* cells) {
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
-  vkh::record_survey_begin(rec, call.p, call.streams,
-                           {begin->weightBuffer, begin->weightOffset, call.streams.weights.size},
-                           begin->farthest);
+  vkh::record_survey_cells(rec, call.p, call.streams,
+                           {cells->weightBuffer, cells->weightOffset, call.streams.weights.size},
+                           cells->farthest);
 }
 
 void vkhCmdScoreSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        const VkhSurvey* survey, const VkhSurveyScore* score) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey,
                              uint64_t{score->first} + score->count);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
@@ -559,7 +618,7 @@ void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
                        const VkhSurvey* survey, const VkhSurveySplit* split) {
   const uint64_t parents = uint64_t{split->above} + split->ties;
   const uint64_t cells = split->cells + (split->parts - 1) * parents;
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, cells);
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey, cells);
   if (!call.records() || parents > vkh::survey_parents(survey->capacity)) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
   vkh::record_survey_split(rec, call.p, call.streams, *split);
@@ -568,10 +627,7 @@ void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 // NOLINTNEXTLINE(readability-function-size)
 void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        const VkhSurvey* survey, const VkhSurveyBound* bound, VkhProfile* profile) {
-  const uint64_t end = uint64_t{bound->first} + bound->count;
-  const uint64_t parents = bound->parts > 1 ? end / bound->parts : 0;
-  const uint64_t cells = bound->live + end - parents;
-  vkh::SurveyCall call(context, commandBuffer, *problem, *survey, cells);
+  vkh::SurveyCall call(context, commandBuffer, problem, survey);
   if (!call.records() || !call.rules.profile(profile) || bound->count == 0) return;
   vkh::Recorder rec(*context, commandBuffer, profile);
   vkh::record_survey_bound(rec, call.p, call.streams, *bound);
@@ -579,7 +635,7 @@ void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 
 void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                        const VkhSurvey* survey, const VkhSurveyTally* tally) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey,
                              uint64_t{tally->first} + tally->count);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
@@ -589,7 +645,7 @@ void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 void vkhCmdFindSurveySides(VkhContext context, VkCommandBuffer commandBuffer,
                            const VkhProblem* problem, const VkhSurvey* survey,
                            const VkhSurveySides* sides) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey,
                              uint64_t{sides->first} + sides->count);
   if (!call.records() || sides->count == 0) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
@@ -599,17 +655,17 @@ void vkhCmdFindSurveySides(VkhContext context, VkCommandBuffer commandBuffer,
 void vkhCmdFindSurveyNormals(VkhContext context, VkCommandBuffer commandBuffer,
                              const VkhProblem* problem, const VkhSurvey* survey,
                              const VkhSurveyNormals* normals) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey,
                              uint64_t{normals->first} + normals->count);
   if (!call.records() || normals->count == 0) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
   vkh::record_survey_normals(rec, call.p, call.streams, *normals);
 }
 
-void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
-                            const VkhProblem* problem, const VkhSurvey* survey,
-                            const VkhSurveyFaces* faces) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey, faces->cells);
+void vkhCmdFindSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
+                           const VkhProblem* problem, const VkhSurvey* survey,
+                           const VkhSurveyFaces* faces) {
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey, faces->cells);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
   vkh::record_survey_faces(rec, call.p, call.streams, *faces);
@@ -617,16 +673,17 @@ void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
 
 void vkhCmdReadSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                       const VkhSurvey* survey, const VkhSurveyRead* read) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey,
                              uint64_t{read->first} + read->count);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
   vkh::record_survey_read(rec, call.streams, *read);
 }
 
-void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
-                       const VkhSurvey* survey, const VkhSurveyWrite* write) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *survey,
+void vkhCmdNarrowSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                        const VkhProblem* problem, const VkhSurvey* survey,
+                        const VkhSurveyWrite* write) {
+  const vkh::SurveyCall call(context, commandBuffer, problem, survey,
                              uint64_t{write->first} + write->count);
   if (!call.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
@@ -636,8 +693,8 @@ void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer, const 
 // NOLINTNEXTLINE(readability-function-size)
 void vkhCmdMoveSurvey(VkhContext context, VkCommandBuffer commandBuffer, const VkhProblem* problem,
                       const VkhSurvey* from, const VkhSurvey* to, uint32_t cells) {
-  const vkh::SurveyCall call(context, commandBuffer, *problem, *from, cells);
-  vkh::SurveyCall target(context, commandBuffer, *problem, *to, cells);
+  const vkh::SurveyCall call(context, commandBuffer, problem, from, cells);
+  vkh::SurveyCall target(context, commandBuffer, problem, to, cells);
   if (!call.records() || !target.records()) return;
   vkh::Recorder rec(*context, commandBuffer, nullptr);
   vkh::record_survey_move(rec, call.streams, target.streams, cells);

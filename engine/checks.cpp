@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cfloat>
 #include <cmath>
 #include <iterator>
 
@@ -201,12 +202,22 @@ bool Rules::survey(const VkhProblem& p, const VkhSurvey& survey, uint64_t cells)
   if (!problem(p) || !are_checked()) return kept_;
   VKH_RULE("a survey: a context of VKH_CONTEXT_CELLS",
            gpu::bounds_cells(context_.limits.switches, context_.limits.wide));
+  VKH_RULE("VkhSurvey::size: sizeof(VkhSurvey)", survey.size == sizeof(VkhSurvey));
   memory(survey.memory);
   VKH_RULE("VkhSurvey::capacity: at least A's faces, at most vkhGetSurveyCapacity",
            survey.capacity >= p.a.faceCount && survey.capacity <= largest_survey(context_.limits));
   VKH_RULE("VkhSurvey::memory: at least vkhGetSurveySize bytes",
            survey.memory.size >= survey_size(p.a.faceCount, survey.capacity));
+  VKH_RULE("VkhSurvey::faceWidth: at least 0, and finite",
+           survey.faceWidth >= 0 && survey.faceWidth <= FLT_MAX);
   VKH_RULE("a survey: room for all cells", cells >= 1 && cells <= survey.capacity);
+  return kept_;
+}
+
+bool Rules::survey_output(VkBuffer buffer, VkDeviceSize offset) {
+  if (!are_checked()) return true;
+  VKH_RULE("a survey's output: a buffer that is not null", buffer != VK_NULL_HANDLE);
+  VKH_RULE("a survey's output: an offset that is a multiple of 4 bytes", offset % 4 == 0);
   return kept_;
 }
 

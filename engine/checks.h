@@ -53,6 +53,7 @@ class Rules {
   bool cells(const VkhProblem& problem, const VkhCells& cells);
   // The rules of a survey's calls, of which `cells` is how many cells there are, or will be.
   bool survey(const VkhProblem& problem, const VkhSurvey& survey, uint64_t cells);
+  bool survey_output(VkBuffer buffer, VkDeviceSize offset);
   bool closest(const VkhHierarchy& b, const VkhClosestQuery& query);
   bool profile(const VkhProfile* profile);
 

@@ -9,6 +9,7 @@ void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
     Slice<gpu::Cell> cells;
     Slice<gpu::CellBounds> bounds;
     Slice<uint32_t> parents, faces_reached;  // a survey's alone
+    Slice<gpu::SurveyWave> wave;
     gpu::CellPush push;
   };
   const bool given = asked.cells.buffer != VK_NULL_HANDLE;
@@ -17,13 +18,12 @@ void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
                   asked.bounds,
                   p.ws.unused,
                   p.ws.unused,
+                  as<gpu::SurveyWave>(p.ws.unused),
                   {.count = asked.count,
                    .given = given ? gpu::kGivenCells : gpu::kFacesOfA,
                    .first = asked.first,
                    .face_count = p.face_count,
-                   .triangle_count = asked.has_run ? p.b.face_count : 0,
-                   .parts = 1,
-                   .live = 0}};
+                   .triangle_count = asked.has_run ? p.b.face_count : 0}};
   rec.run<k::CellBounds>(all, Items{asked.count});
   rec.stage("cells");
 }

@@ -164,20 +164,15 @@ struct Extra {
   uint32_t kernel;
   Need needed;
 };
-constexpr std::array kExtras{Extra{kIndexOfMeshCheck, gpu::checks_input},
-                             Extra{kIndexOfReportOpen, gpu::covers_area},
-                             Extra{kIndexOfCellBounds, gpu::bounds_cells},
-                             Extra{kIndexOfSurveyBegin, gpu::bounds_cells},
-                             Extra{kIndexOfSurveyScore, gpu::bounds_cells},
-                             Extra{kIndexOfSurveyCount, gpu::bounds_cells},
-                             Extra{kIndexOfSurveyScan, gpu::bounds_cells},
-                             Extra{kIndexOfSurveyList, gpu::bounds_cells},
-                             Extra{kIndexOfSurveySplit, gpu::bounds_cells},
-                             Extra{kIndexOfSurveyTally, gpu::bounds_cells},
-                             Extra{kIndexOfSurveyFaces, gpu::bounds_cells},
-                             Extra{kIndexOfSurveySides, gpu::bounds_cells},
-                             Extra{kIndexOfSurveyNormals, gpu::bounds_cells},
-                             Extra{kIndexOfClosestFaces, gpu::finds_closest}};
+constexpr std::array kExtras{
+    Extra{kIndexOfMeshCheck, gpu::checks_input},    Extra{kIndexOfReportOpen, gpu::covers_area},
+    Extra{kIndexOfCellBounds, gpu::bounds_cells},   Extra{kIndexOfSurveyBegin, gpu::bounds_cells},
+    Extra{kIndexOfSurveyScore, gpu::bounds_cells},  Extra{kIndexOfSurveyChoose, gpu::bounds_cells},
+    Extra{kIndexOfSurveyCount, gpu::bounds_cells},  Extra{kIndexOfSurveyScan, gpu::bounds_cells},
+    Extra{kIndexOfSurveyList, gpu::bounds_cells},   Extra{kIndexOfSurveySplit, gpu::bounds_cells},
+    Extra{kIndexOfSurveyTally, gpu::bounds_cells},  Extra{kIndexOfSurveyFaces, gpu::bounds_cells},
+    Extra{kIndexOfSurveySides, gpu::bounds_cells},  Extra{kIndexOfSurveyNormals, gpu::bounds_cells},
+    Extra{kIndexOfClosestFaces, gpu::finds_closest}};
 
 // Whether a run needs this kernel. Others are not created: a driver takes tens of milliseconds for
 // some. A kernel that neither table names is of the BVH, the seed or the report, and always needed.

@@ -106,7 +106,7 @@ struct AskedCells {
 void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
 // A survey's cells. The host reads and writes through buffers of its own; each call waits for the
 // one before it.
-void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+void record_survey_cells(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const Slice<gpu::Wide>& weights, float farthest);
 // Scores all cells by the plan, and counts them by bins into `histogram`.
 void record_survey_score(Recorder& rec, const Problem& p, const SurveyStreams& survey,
@@ -116,6 +116,13 @@ void record_survey_split(Recorder& rec, const Problem& p, const SurveyStreams& s
 // Bounds new cells, which may be several submissions' work.
 void record_survey_bound(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyBound& bound);
+// Makes A's faces cells, and bounds them; then waves that the device plans, for each face's width.
+void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& survey);
+void record_survey_waves(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurvey& asked, uint32_t waves);
+// Writes a VkhSurveyReport: as many bytes of the wave as `report` has.
+void record_survey_report(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                          const VkhSurvey& asked, const Slice<gpu::SurveyWave>& report);
 // Adds up all cells at the plan's edges into `table`.
 void record_survey_tally(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyTally& tally);
@@ -148,5 +155,7 @@ void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& re
 void record_statistics(Recorder& rec, const Problem& p, const Slice<uint32_t>& to, Order order);
 // Reports only that A or B is no mesh, where nothing was built.
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
+void record_unbuilt_survey_report(Recorder& rec, const Slice<gpu::SurveyWave>& report);
+void record_unbuilt_faces(Recorder& rec, const Slice<float>& faces);
 
 }  // namespace vkh

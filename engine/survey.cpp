@@ -1,6 +1,11 @@
-// A survey's cells: the host plans, and the kernels score, split, bound and add up
-// (shaders/survey).
+// A survey's cells: kernels score, choose, split, bound and add up (shaders/survey), by a plan of
+// the host's or by the widths of faces.
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cfloat>
+#include <cstddef>
+#include <utility>
 
 #include "engine/record.h"
 
@@ -25,6 +30,7 @@ struct SurveyGiven : RunBuffers {
         histogram(s.histogram),
         plan(s.plan),
         table(s.table),
+        wave(s.wave),
         push(what) {}
 
   Slice<gpu::Cell> cells;
@@ -36,6 +42,7 @@ struct SurveyGiven : RunBuffers {
   Slice<uint32_t> histogram;
   Slice<gpu::SurveyPlan> plan;
   Slice<gpu::SurveyTable> table;
+  Slice<gpu::SurveyWave> wave;
   Push push;
 };
 
@@ -53,10 +60,82 @@ uint32_t groups_for(uint32_t cells) {
 
 uint32_t blocks_of(uint32_t cells) { return (cells + gpu::kSurveyBlock - 1) / gpu::kSurveyBlock; }
 
+// A member of a struct on the device. Its offset is the same there: all members have four bytes.
+template <class Struct>
+Slice<uint32_t> word_of(const Slice<Struct>& slice, size_t offset) {
+  return {slice.buffer, slice.offset + offset, sizeof(uint32_t)};
+}
+
+// Fills members of what was written before.
+template <class Struct, size_t count>
+void fill_words(Recorder& rec, const Slice<Struct>& slice,
+                const std::array<std::pair<size_t, uint32_t>, count>& words) {
+  Order order = Order::kAfterAll;
+  for (const auto& [offset, word] : words) {
+    rec.fill(word_of(slice, offset), word, order);
+    order = Order::kIndependent;
+  }
+}
+
+void record_split(Recorder& rec, const Problem& p, const SurveyStreams& survey, uint32_t cells,
+                  uint32_t parents) {
+  const SurveyGiven given(p, survey, NoPush{});
+  const Groups blocks{blocks_of(cells)};
+  rec.run<k::SurveyCount>(given, blocks);
+  rec.run<k::SurveyScan>(given, Groups{1});
+  rec.run<k::SurveyList>(given, blocks);
+  rec.run<k::SurveySplit>(given, Items{parents});
+}
+
+// The new cells are those of the wave; `count` of them at most, from the first on.
+void record_bound(Recorder& rec, const Problem& p, const SurveyStreams& survey, uint32_t first,
+                  uint32_t count) {
+  const SurveyGiven given(p, survey,
+                          gpu::CellPush{.count = count,
+                                        .given = gpu::kSurveyCells,
+                                        .first = first,
+                                        .face_count = p.face_count,
+                                        .triangle_count = p.b.face_count});
+  rec.run<k::CellBounds>(given, Items{count});
+}
+
+// Scores all cells by the plan that is there.
+void record_score(Recorder& rec, const Problem& p, const SurveyStreams& survey, uint32_t first,
+                  uint32_t count) {
+  const uint32_t groups = groups_for(count);
+  const SurveyGiven given(p, survey, gpu::SurveyPush{first, first + count, groups, 0, 0});
+  rec.run<k::SurveyScore>(given, Groups{groups});
+}
+
+// The plan: each face's error is known to `width`. It stands in for one of the host's.
+void record_plan_of_faces(Recorder& rec, const SurveyStreams& survey, float width) {
+  using Plan = gpu::SurveyPlan;
+  rec.fill(survey.plan, 0);
+  fill_words(rec, survey.plan,
+             std::array{std::pair{offsetof(Plan, faces), 1u},
+                        std::pair{offsetof(Plan, face_tolerance), std::bit_cast<uint32_t>(width)},
+                        std::pair{offsetof(Plan, face_beyond), std::bit_cast<uint32_t>(FLT_MAX)}});
+}
+
+enum class Splits { kNo, kYes };
+
+// Scores all cells, and chooses what is to be split, or only tells how the survey stands.
+void record_choice(Recorder& rec, const Problem& p, const SurveyStreams& survey, uint32_t capacity,
+                   Splits splits) {
+  rec.fill(survey.histogram, 0);
+  record_score(rec, p, survey, 0, capacity);
+  const SurveyGiven given(p, survey,
+                          gpu::SurveyChoosePush{.capacity = capacity,
+                                                .most = survey_parents(capacity),
+                                                .splits = splits == Splits::kYes ? 1u : 0u});
+  rec.run<k::SurveyChoose>(given, Groups{1});
+}
+
 }  // namespace
 
-void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+void record_survey_cells(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const Slice<gpu::Wide>& weights, float farthest) {
+  using Wave = gpu::SurveyWave;
   const auto scope = rec.scope("survey begin");
   if (weights.buffer != VK_NULL_HANDLE) {
     rec.copy(weights, survey.weights);
@@ -64,6 +143,11 @@ void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& s
     rec.fill(survey.weights, 0);
   }
   rec.fill(survey.faces_reached, 0, Order::kIndependent);
+  rec.fill(survey.wave, 0, Order::kIndependent);
+  fill_words(rec, survey.wave,
+             std::array{std::pair{offsetof(Wave, cells), p.face_count},
+                        std::pair{offsetof(Wave, parts), 1u},
+                        std::pair{offsetof(Wave, fresh), p.face_count}});
   const SurveyGiven given(p, survey, gpu::SurveyBeginPush{p.face_count, farthest});
   rec.run<k::SurveyBegin>(given, Items{p.face_count});
 }
@@ -71,41 +155,61 @@ void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& s
 void record_survey_score(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyScore& score) {
   const auto scope = rec.scope("survey score");
-  const uint32_t groups = groups_for(score.count);
   rec.copy({score.planBuffer, score.planOffset, sizeof(gpu::SurveyPlan)}, survey.plan);
   rec.fill(survey.histogram, 0, Order::kIndependent);
-  const SurveyGiven given(p, survey,
-                          gpu::SurveyPush{score.first, score.first + score.count, groups, 0, 0});
-  rec.run<k::SurveyScore>(given, Groups{groups});
+  record_score(rec, p, survey, score.first, score.count);
   rec.copy(survey.histogram, {score.histogramBuffer, score.histogramOffset, survey.histogram.size});
 }
 
 void record_survey_split(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveySplit& split) {
+  using Wave = gpu::SurveyWave;
   const auto scope = rec.scope("survey split");
-  const SurveyGiven given(
-      p, survey,
-      gpu::SurveySplitPush{split.cells, split.bin, split.ties, split.above, split.parts});
-  const Groups blocks{blocks_of(split.cells)};
-  rec.run<k::SurveyCount>(given, blocks);
-  rec.run<k::SurveyScan>(given, Groups{1});
-  rec.run<k::SurveyList>(given, blocks);
-  rec.run<k::SurveySplit>(given, Items{split.above + split.ties});
+  const uint32_t parents = split.above + split.ties;
+  fill_words(rec, survey.wave,
+             std::array{std::pair{offsetof(Wave, cells), split.cells + (split.parts - 1) * parents},
+                        std::pair{offsetof(Wave, live), split.cells},
+                        std::pair{offsetof(Wave, key), split.bin},
+                        std::pair{offsetof(Wave, ties), split.ties},
+                        std::pair{offsetof(Wave, above), split.above},
+                        std::pair{offsetof(Wave, parts), split.parts},
+                        std::pair{offsetof(Wave, fresh), split.parts * parents}});
+  record_split(rec, p, survey, split.cells, parents);
 }
 
 void record_survey_bound(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyBound& bound) {
   const auto scope = rec.scope("survey bound");
-  const SurveyGiven given(p, survey,
-                          gpu::CellPush{.count = bound.count,
-                                        .given = gpu::kSurveyCells,
-                                        .first = bound.first,
-                                        .face_count = p.face_count,
-                                        .triangle_count = p.b.face_count,
-                                        .parts = bound.parts,
-                                        .live = bound.live});
-  rec.run<k::CellBounds>(given, Items{bound.count});
+  record_bound(rec, p, survey, bound.first, bound.count);
   rec.stage("cells");
+}
+
+void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& survey) {
+  record_survey_cells(rec, p, survey, {}, FLT_MAX);
+  record_bound(rec, p, survey, 0, p.face_count);
+  rec.stage("cells");
+}
+
+void record_survey_waves(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                         const VkhSurvey& asked, uint32_t waves) {
+  if (waves > 0) record_plan_of_faces(rec, survey, asked.faceWidth);
+  for (uint32_t i = 0; i < waves; ++i) {
+    const auto scope = rec.scope("survey wave");
+    const uint32_t parents = survey_parents(asked.capacity);
+    record_choice(rec, p, survey, asked.capacity, Splits::kYes);
+    record_split(rec, p, survey, asked.capacity, parents);
+    rec.stage("survey plan");
+    record_bound(rec, p, survey, 0, 4 * parents);
+    rec.stage("cells");
+  }
+}
+
+void record_survey_report(Recorder& rec, const Problem& p, const SurveyStreams& survey,
+                          const VkhSurvey& asked, const Slice<gpu::SurveyWave>& report) {
+  const auto scope = rec.scope("survey report");
+  record_plan_of_faces(rec, survey, asked.faceWidth);
+  record_choice(rec, p, survey, asked.capacity, Splits::kNo);
+  rec.copy({survey.wave.buffer, survey.wave.offset, report.size}, report);
 }
 
 void record_survey_tally(Recorder& rec, const Problem& p, const SurveyStreams& survey,
@@ -164,6 +268,17 @@ void record_survey_normals(Recorder& rec, const Problem& p, const SurveyStreams&
   rec.run<k::SurveyNormals>(given, Items{normals.count});
 }
 
+void record_unbuilt_survey_report(Recorder& rec, const Slice<gpu::SurveyWave>& report) {
+  rec.fill(report, 0);
+  fill_words(rec, report,
+             std::array{std::pair{offsetof(gpu::SurveyWave, status), gpu::kStatusInput}});
+}
+
+void record_unbuilt_faces(Recorder& rec, const Slice<float>& faces) {
+  constexpr uint32_t kNan = 0x7fc00000;
+  rec.fill(faces, kNan);
+}
+
 // Copies what is told of each face to the caller's buffer. What a face reached before its cells
 // were split is kept.
 void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& survey,
@@ -176,7 +291,7 @@ void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& s
     } else {
       rec.fill(survey.faces_told, 0);
     }
-    const SurveyGiven given(p, survey, gpu::SurveyFacesPush{faces.cells, classes, reached});
+    const SurveyGiven given(p, survey, gpu::SurveyFacesPush{classes, reached});
     rec.run<k::SurveyFaces>(given, Items{faces.cells});
     rec.copy(first_of(survey.faces_told, p.face_count),
              {faces.buffer, faces.offset + offset, bytes});
@@ -209,6 +324,7 @@ void record_survey_move(Recorder& rec, const SurveyStreams& from, const SurveySt
                         uint32_t cells) {
   const auto scope = rec.scope("survey move");
   rec.copy(from.weights, to.weights);
+  rec.copy(from.wave, to.wave, Order::kIndependent);
   rec.copy(from.faces_reached, to.faces_reached, Order::kIndependent);
   rec.copy(first_of(from.cells, cells), to.cells, Order::kIndependent);
   rec.copy(first_of(from.bounds, cells), to.bounds, Order::kIndependent);

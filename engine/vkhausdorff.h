@@ -16,6 +16,7 @@
  *               once a pair:        vkhGetWorkspaceRequirements, vkhCmdBegin
  *               then as you like:   vkhCmdAdvance (n waves), vkhCmdWriteReport
  *               points alone:       vkhCmdFindClosest, which needs B and no pair
+ *               each face's error:  vkhCmdBeginSurvey, vkhCmdAdvanceSurvey, vkhCmdWriteSurveyFaces
  *               many pairs at once: vkhCmdRunTasks, which builds, begins, advances and reports
  * All of it may stand in one command buffer, or be spread over many: two waves a frame and a report
  * after each. Reports of one run nest: lower never falls and upper never rises, but for rounding.
@@ -137,7 +138,7 @@ typedef enum VkhDeviceKind {
  */
 typedef enum VkhContextFlagBits {
   VKH_CONTEXT_COVERAGE = 0x80, /* runs write VkhRunOptions::coverageBuffer */
-  VKH_CONTEXT_CELLS = 0x20000, /* vkhCmdBoundCells can be recorded */
+  VKH_CONTEXT_CELLS = 0x20000, /* vkhCmdBoundCells and surveys can be recorded */
   /* For tolerances under 5e-7 of A's diagonal: edges are halved 40 times, not 20. */
   VKH_CONTEXT_FINE = 0x40000,
   /* Each mesh is checked on the device where it is read, by vkhCmdBuildHierarchy,
@@ -569,6 +570,76 @@ typedef struct VkhCells {
 VKH_API void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer,
                               const VkhProblem* problem, const VkhCells* cells,
                               VkhProfile* profile);
+
+/* A survey tells how far each face of A is from B: cells that tile A's faces are bounded as by
+ * vkhCmdBoundCells, and those that leave a face's error open are split, wave by wave. The device
+ * plans: nothing is read back. In one command buffer, or in those of several frames:
+ *     vkhCmdBegin, vkhCmdAdvance     as for h; a few waves, or none, are enough
+ *     vkhCmdBeginSurvey              once, and again when A or B has moved
+ *     vkhCmdAdvanceSurvey            as many waves as the frame has time for; or none
+ *     vkhCmdWriteSurveyFaces         the errors, for the shader that draws A
+ *     vkhCmdWriteSurvey              how it stands
+ * Needs a context of VKH_CONTEXT_CELLS. The run does not change, and may advance in between. A
+ * survey of an unknown `size` is left out whole. */
+typedef struct VkhSurvey {
+  size_t size;       /* sizeof(VkhSurvey) */
+  VkhMemory memory;  /* vkhGetSurveySize bytes; usage STORAGE_BUFFER, TRANSFER_SRC, TRANSFER_DST. No
+                      * other survey may use it at the same time; others may after it */
+  uint32_t capacity; /* cells that it has room for: at least A's faces, for waves some four times as
+                      * many; at most vkhGetSurveyCapacity */
+  float faceWidth; /* a face's cells are split while its `highest` is farther than so much from its
+                    * `reached`, in the coordinates' units; 0: as far as float32 tells */
+} VkhSurvey;
+
+/* The most cells that the device's bindings reach. */
+VKH_API uint32_t vkhGetSurveyCapacity(VkhContext context);
+/* Bytes: some 150 a cell, and 16 a face of A. */
+VKH_API VkDeviceSize vkhGetSurveySize(VkhContext context, uint32_t faceCount, uint32_t capacity);
+
+/* Makes each face of A a cell, and bounds them all. Reads the BVH and the workspace, writes the
+ * survey's memory. */
+VKH_API void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, const VkhSurvey* survey,
+                               VkhProfile* profile);
+
+/* Records `waves` waves: each splits into four the cells that are in the way of their face's width,
+ * the widest first if there is no room for all, and bounds the parts. A wave after the end is
+ * empty. Errors of faces only get narrower. */
+VKH_API void vkhCmdAdvanceSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                                 const VkhProblem* problem, const VkhSurvey* survey, uint32_t waves,
+                                 VkhProfile* profile);
+
+/* The output of vkhCmdWriteSurvey: 4-byte words without padding, as VkhReport; it too stands in
+ * vkhausdorff_report.glsl. */
+typedef struct VkhSurveyReport {
+  /* VKH_STATUS_RUNNING: a wave would split some cells. DECIDED: each face's error is known to
+   * faceWidth. PRECISION: to that, or to what float32 tells. MEMORY: there is no room to split any.
+   * INPUT: as in the report of the run; nothing is known. */
+  uint32_t status;
+  uint32_t waves; /* that have split cells */
+  uint32_t cells;
+  uint32_t open; /* cells that are in the way of their face's width and may be split */
+} VkhSurveyReport;
+
+/* Writes the report at `offset` (a multiple of 4 bytes) of `buffer` (usage TRANSFER_DST, and what
+ * you read it by), in ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use of
+ * it. */
+VKH_API void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                               const VkhProblem* problem, const VkhSurvey* survey, VkBuffer buffer,
+                               VkDeviceSize offset, VkhProfile* profile);
+
+/* Writes the errors of A's faces, in the order of its faces, at `offset` (a multiple of 4 bytes) of
+ * `buffer` (usage TRANSFER_DST, and STORAGE_BUFFER for a shader): float[2 * faceCount], in the
+ * coordinates' units. The first faceCount are `reached`: some point of the face is at least so far
+ * from B. Those behind them are `highest`: none is farther. Certified, as VkhReport::lower and
+ * upper are; NaN where the report would be of VKH_STATUS_INPUT. A fragment shader that draws A
+ * finds its face's at gl_PrimitiveID and faceCount + gl_PrimitiveID. Written in ALL_TRANSFER with
+ * TRANSFER_WRITE: put a barrier from there to your use, such as FRAGMENT_SHADER with
+ * SHADER_STORAGE_READ; before the next frame writes them again, wait for that stage by your barrier
+ * to COMPUTE_SHADER, as for a report. */
+VKH_API void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
+                                    const VkhProblem* problem, const VkhSurvey* survey,
+                                    VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
 
 /* A point as an exact sum of two float32 a coordinate, the second at most half an ulp of the first:
  * 48 bits. Coordinates are finite and up to 2^15. */

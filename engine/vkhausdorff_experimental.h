@@ -1,5 +1,5 @@
-/* VkHausdorff, what has no contract yet: parts of the method by switches, and surveys whose cells
- * stay on the device. Any version may change what is here.
+/* VkHausdorff, what has no contract yet: parts of the method by switches, and surveys by plans of
+ * the caller's. Any version may change what is here.
  *
  * Parts of the method by switches: for ablations, for the comparison with the paper,
  * and to measure what the certificate costs. Renderers need nothing of this:
@@ -43,37 +43,23 @@ typedef enum VkhSwitchBits {
 extern "C" {
 #endif
 
-/* A survey: cells that tile A, with bounds of d(x, B), which are split where a plan of the caller's
- * says that it helps. The structs that the caller's buffers hold are those of shaders/gpu_types.h,
- * SurveyPlan and SurveyTable. Calls need a context of VKH_CONTEXT_CELLS and, from
- * vkhCmdBeginSurvey on, a problem whose run has begun; they are recorded in their order, and each
- * waits for the one before it. The run does not change. Offsets are multiples of 256 bytes.
- *   Results are written in ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use
- * of them, such as FRAGMENT_SHADER with SHADER_STORAGE_READ, for which the buffer has the usage
- * STORAGE_BUFFER besides. Before they are written again, wait for other stages that read them by
- * your barrier to COMPUTE_SHADER, as for a report.
- *   The errors of A's faces, without plans: vkhCmdBeginSurvey without weights, vkhCmdBoundSurvey of
- * all faces, vkhCmdWriteSurveyFaces, with a capacity of A's faces. Several problems may share a
- * survey's memory, one after the other. */
-typedef struct VkhSurvey {
-  VkhMemory memory;  /* vkhGetSurveySize; usage STORAGE_BUFFER, TRANSFER_SRC, TRANSFER_DST */
-  uint32_t capacity; /* cells that it has room for: at least A's faces */
-} VkhSurvey;
+/* Surveys by plans of the caller's: for figures, maps, sides and normals. The caller says what
+ * scores, and by the counts of scores what is split. The structs that its buffers hold are those of
+ * shaders/gpu_types.h, SurveyPlan and SurveyTable. Calls need what vkhCmdBeginSurvey needs; they
+ * are recorded in their order, and each waits for the one before it. VkhSurvey::faceWidth is not
+ * used. Offsets are multiples of 256 bytes. Results are written in ALL_TRANSFER with
+ * TRANSFER_WRITE. */
 
-/* The most cells that the device's bindings reach. */
-VKH_API uint32_t vkhGetSurveyCapacity(VkhContext context);
-VKH_API VkDeviceSize vkhGetSurveySize(VkhContext context, uint32_t faceCount, uint32_t capacity);
-
-typedef struct VkhSurveyBegin {
+typedef struct VkhSurveyCells {
   VkBuffer weightBuffer; /* an integer of 64 bits for each face of A, all together under 2^62;
                           * usage TRANSFER_SRC. Null: none; tallies and scores need them */
   VkDeviceSize weightOffset;
   float farthest; /* no distance is above it; FLT_MAX, if nothing is known */
-} VkhSurveyBegin;
-/* Makes each face of A a cell, without bounds: vkhCmdBoundSurvey has them, with live 0. */
-VKH_API void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer,
-                               const VkhProblem* problem, const VkhSurvey* survey,
-                               const VkhSurveyBegin* begin);
+} VkhSurveyCells;
+/* Makes each face of A a cell, without bounds, for vkhCmdBoundSurvey. */
+VKH_API void vkhCmdBeginSurveyCells(VkhContext context, VkCommandBuffer commandBuffer,
+                                    const VkhProblem* problem, const VkhSurvey* survey,
+                                    const VkhSurveyCells* cells);
 
 typedef struct VkhSurveyScore {
   uint32_t first, count; /* of the cells */
@@ -103,9 +89,8 @@ VKH_API void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer
 
 typedef struct VkhSurveyBound {
   uint32_t first, count; /* of the new cells: the parts of those that were split, or A's faces */
-  uint32_t parts;        /* of each; 1: A's faces */
-  uint32_t live;         /* cells before they were split; 0 for A's faces */
 } VkhSurveyBound;
+/* Bounds new cells, which may be several calls' work. */
 VKH_API void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhProblem* problem, const VkhSurvey* survey,
                                const VkhSurveyBound* bound, VkhProfile* profile);
@@ -158,11 +143,10 @@ typedef struct VkhSurveyFaces {
                     * of each face, none is farther; 0: it has no such cell; usage TRANSFER_DST */
   VkDeviceSize offset;
 } VkhSurveyFaces;
-/* Tells the error of each face: after all cells have been bounded, in the order of A's faces, so
- * that a fragment shader that draws A finds its own at faceCount + gl_PrimitiveID. */
-VKH_API void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
-                                    const VkhProblem* problem, const VkhSurvey* survey,
-                                    const VkhSurveyFaces* faces);
+/* Tells the error of each face, as vkhCmdWriteSurveyFaces, by cells of some classes. */
+VKH_API void vkhCmdFindSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
+                                   const VkhProblem* problem, const VkhSurvey* survey,
+                                   const VkhSurveyFaces* faces);
 
 typedef struct VkhSurveyRead {
   uint32_t first, count; /* of the cells */
@@ -183,9 +167,9 @@ typedef struct VkhSurveyWrite {
       boundsBuffer; /* VkhCellBounds[count], which the caller has narrowed; usage TRANSFER_SRC */
   VkDeviceSize boundsOffset;
 } VkhSurveyWrite;
-VKH_API void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer,
-                               const VkhProblem* problem, const VkhSurvey* survey,
-                               const VkhSurveyWrite* write);
+VKH_API void vkhCmdNarrowSurvey(VkhContext context, VkCommandBuffer commandBuffer,
+                                const VkhProblem* problem, const VkhSurvey* survey,
+                                const VkhSurveyWrite* write);
 
 /* Copies a survey of so many cells into memory with more room, which takes its place. */
 VKH_API void vkhCmdMoveSurvey(VkhContext context, VkCommandBuffer commandBuffer,

@@ -1,5 +1,5 @@
-// VkhReport and VkhStatistics (vkhausdorff.h) as your shader reads them, in a scalar or std430
-// block:
+// VkhReport, VkhSurveyReport and VkhStatistics (vkhausdorff.h) as your shader reads them, in a
+// scalar or std430 block:
 //   layout(std430, binding = 0) readonly buffer Reports { VkhReport report; };
 #ifndef VKHAUSDORFF_REPORT_GLSL
 #define VKHAUSDORFF_REPORT_GLSL
@@ -27,6 +27,13 @@ struct VkhReport {
   uint witnessFaceB;
   uint witnessBarycentric[2];
   uint witnessBarycentricLow[2];
+};
+
+struct VkhSurveyReport {
+  uint status;
+  uint waves;
+  uint cells;
+  uint open;
 };
 
 struct VkhWaveRecord {

@@ -161,6 +161,7 @@ void list(Suballocator& take, SurveyStreams& s, uint32_t face_count, uint32_t ca
   take(s.histogram, gpu::kScoreBins);
   take(s.plan, 1);
   take(s.table, 1);
+  take(s.wave, 1);
 }
 
 // As kMaySplitTwice of shaders/wave/split_counts.glsl.

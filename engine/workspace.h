@@ -79,7 +79,7 @@ struct Workspace {
   uint32_t capacity = 0;
 };
 
-// A survey's cells, and what the host's plan makes of them.
+// A survey's cells, and what a plan makes of them.
 struct SurveyStreams {
   Slice<gpu::Wide> weights;       // of each face of A
   Slice<uint32_t> faces_reached;  // per face of A, floats as bits: some point is at least so far
@@ -94,6 +94,7 @@ struct SurveyStreams {
   Slice<uint32_t> histogram;             // one per bin
   Slice<gpu::SurveyPlan> plan;
   Slice<gpu::SurveyTable> table;
+  Slice<gpu::SurveyWave> wave;
 };
 // A wave splits at most a quarter of the cells that there is room for.
 constexpr uint32_t survey_parents(uint32_t capacity) { return capacity / 4 + 1; }

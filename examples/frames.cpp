@@ -1,8 +1,9 @@
 // vkh_frames: measures the cost of a frame that certifies a deforming mesh against its LOD. Each
-// frame moves both meshes on the device and runs three ways on the same shape:
+// frame moves both meshes on the device and runs four ways on the same shape:
 //   warm     refit B's BVH, start from the last frame's run
 //   cold     refit, start from nothing
 //   rebuild  build the BVH anew, start from nothing
+//   faces    as warm, and then the error of each face: a survey, with --survey-waves waves
 // Prints CSV to stdout and a summary to stderr. gpu_ms is the device's time from the BVH to the
 // report, wall_ms the host's, recording included.
 #include <algorithm>
@@ -24,7 +25,7 @@ using example::Pair;
 struct Options {
   uint32_t frames = 300;
   uint32_t cells_u = 250, cells_v = 200;  // 100,000 faces against 25,000
-  uint32_t waves = 8;
+  uint32_t waves = 8, survey_waves = 1;
   float tolerance = 4e-6f;  // about 1e-6 of the diagonal
   bool reverse = false;     // h(LOD, mesh) in place of h(mesh, LOD)
   bool validation = false;
@@ -33,11 +34,12 @@ struct Options {
 struct Mode {
   const char* name;
   Pair::Hierarchy hierarchy;
-  bool warm;
+  bool warm, faces;
 };
-constexpr std::array<Mode, 3> kModes = {{{"warm", Pair::Hierarchy::kRefit, true},
-                                         {"cold", Pair::Hierarchy::kRefit, false},
-                                         {"rebuild", Pair::Hierarchy::kBuild, false}}};
+constexpr std::array<Mode, 4> kModes = {{{"warm", Pair::Hierarchy::kRefit, true, false},
+                                         {"cold", Pair::Hierarchy::kRefit, false, false},
+                                         {"rebuild", Pair::Hierarchy::kBuild, false, false},
+                                         {"faces", Pair::Hierarchy::kRefit, true, true}}};
 
 struct Sample {
   double gpu_ms, wall_ms;
@@ -63,6 +65,8 @@ Options parse(int argc, char** argv) {
       o.cells_v = static_cast<uint32_t>(value());
     } else if (name == "--waves") {
       o.waves = static_cast<uint32_t>(value());
+    } else if (name == "--survey-waves") {
+      o.survey_waves = static_cast<uint32_t>(value());
     } else if (name == "--tolerance") {
       o.tolerance = static_cast<float>(value());
     } else if (name == "--reverse") {
@@ -71,8 +75,8 @@ Options parse(int argc, char** argv) {
       o.validation = true;
     } else {
       throw std::runtime_error(
-          "usage: vkh_frames [--frames N] [--cells U V] [--waves N] [--tolerance T] "
-          "[--reverse] [--validation]");
+          "usage: vkh_frames [--frames N] [--cells U V] [--waves N] [--survey-waves N] "
+          "[--tolerance T] [--reverse] [--validation]");
     }
   }
   if (o.frames == 0 || o.waves == 0 || o.cells_u < 6 || o.cells_v < 6 || o.cells_u % 2 != 0 ||
@@ -85,10 +89,13 @@ class Bench {
  public:
   explicit Bench(const Options& o)
       : options_(o),
-        gpu_({.validation = o.validation}),
+        gpu_({.validation = o.validation, .flags = VKH_CONTEXT_CELLS}),
         scene_(gpu_, o.cells_u, o.cells_v, 2),
-        pairs_{{make_pair(), make_pair(), make_pair()}},
-        report_(gpu_.buffer(sizeof(VkhReport), example::Memory::kHost)) {
+        pairs_{{make_pair(), make_pair(), make_pair(), make_pair()}},
+        survey_(make_survey()),
+        errors_(gpu_.buffer(2 * sizeof(float) * faces(), example::Memory::kDevice)),
+        report_(gpu_.buffer(sizeof(VkhReport), example::Memory::kHost)),
+        survey_report_(gpu_.buffer(sizeof(VkhSurveyReport), example::Memory::kHost)) {
     deform(0);
     for (Pair& pair : pairs_) run(pair, kModes[2]);  // every pair has a BVH and a run
   }
@@ -110,7 +117,7 @@ class Bench {
 
   void summarize() {
     std::fprintf(stderr, "%s: h of %u faces against %u, %u frames, tolerance %g, %u not closed\n",
-                 gpu_.name().c_str(), scene_.levels()[options_.reverse ? 1 : 0].face_count(),
+                 gpu_.name().c_str(), faces(),
                  scene_.levels()[options_.reverse ? 0 : 1].face_count(), options_.frames,
                  static_cast<double>(options_.tolerance), not_closed_);
     for (size_t m = 0; m < kModes.size(); ++m) {
@@ -119,6 +126,10 @@ class Bench {
                    quantile(m, &Sample::gpu_ms, 0.99), quantile(m, &Sample::wall_ms, 0.5),
                    quantile(m, &Sample::wall_ms, 0.99));
     }
+    VkhSurveyReport last;
+    std::memcpy(&last, survey_report_.mapped, sizeof(last));
+    std::fprintf(stderr, "faces: %u cells in the last frame, %u of them wider than %g\n",
+                 last.cells, last.open, static_cast<double>(survey_.faceWidth));
   }
 
   bool clean() const { return gpu_.validation_messages() == 0; }
@@ -126,6 +137,17 @@ class Bench {
  private:
   Pair make_pair() {
     return {gpu_, scene_, options_.reverse ? 1u : 0u, options_.reverse ? 0u : 1u};
+  }
+
+  uint32_t faces() const { return scene_.levels()[options_.reverse ? 1 : 0].face_count(); }
+
+  VkhSurvey make_survey() {
+    const uint32_t cells = std::min(4 * faces(), vkhGetSurveyCapacity(gpu_.context()));
+    const VkDeviceSize size = vkhGetSurveySize(gpu_.context(), faces(), cells);
+    return {.size = sizeof(VkhSurvey),
+            .memory = {gpu_.buffer(size, example::Memory::kDevice).handle, 0, size},
+            .capacity = cells,
+            .faceWidth = 1000 * options_.tolerance};
   }
 
   void deform(uint32_t number) {
@@ -139,7 +161,12 @@ class Bench {
     const double gpu_ms = gpu_.run([&](VkCommandBuffer c) {
       pair.certify(c, mode.hierarchy, mode.warm, options_.waves, options_.tolerance);
       pair.write_report(c, report_, 0);
-      example::barrier(c, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+      if (mode.faces) {
+        pair.write_face_errors(c, survey_, options_.survey_waves, errors_, 0);
+        pair.write_survey_report(c, survey_, survey_report_);
+      }
+      example::barrier(c, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
     });
     return {gpu_ms, now_ms() - start};
@@ -157,9 +184,10 @@ class Bench {
   Options options_;
   example::Gpu gpu_;
   example::Scene scene_;
-  std::array<Pair, 3> pairs_;
-  example::Buffer report_;
-  std::array<std::vector<Sample>, 3> samples_;
+  std::array<Pair, 4> pairs_;
+  VkhSurvey survey_;
+  example::Buffer errors_, report_, survey_report_;
+  std::array<std::vector<Sample>, 4> samples_;
   uint32_t not_closed_ = 0;
 };
 
@@ -170,7 +198,7 @@ int main(int argc, char** argv) try {
   // A GPU's seconds are minutes on a CPU device, and nothing else would show progress.
   std::fprintf(
       stderr,
-      "vkh_frames: %u frames of %u faces, three times each; on a CPU device that takes minutes, ",
+      "vkh_frames: %u frames of %u faces, four times each; on a CPU device that takes minutes, ",
       options.frames, 2 * options.cells_u * options.cells_v);
   std::fprintf(stderr, "and --frames 3 --cells 32 24 seconds\n");
   Bench bench(options);

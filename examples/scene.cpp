@@ -114,20 +114,16 @@ void Pair::write_report(VkCommandBuffer commands, const Buffer& report, VkDevice
   vkhCmdWriteReport(context_, commands, &problem_, report.handle, offset, nullptr);
 }
 
-void Pair::write_face_errors(VkCommandBuffer commands, const VkhSurvey& survey, float farthest,
+void Pair::write_face_errors(VkCommandBuffer commands, const VkhSurvey& survey, uint32_t waves,
                              const Buffer& errors, VkDeviceSize offset) {
-  const uint32_t faces = problem_.a.faceCount;
-  const VkhSurveyBegin begin{
-      .weightBuffer = VK_NULL_HANDLE, .weightOffset = 0, .farthest = farthest};
-  const VkhSurveyBound all{.first = 0, .count = faces, .parts = 1, .live = 0};
-  const VkhSurveyFaces told{.cells = faces,
-                            .reachedClasses = UINT32_MAX,
-                            .highestClasses = UINT32_MAX,
-                            .buffer = errors.handle,
-                            .offset = offset};
-  vkhCmdBeginSurvey(context_, commands, &problem_, &survey, &begin);
-  vkhCmdBoundSurvey(context_, commands, &problem_, &survey, &all, nullptr);
-  vkhCmdWriteSurveyFaces(context_, commands, &problem_, &survey, &told);
+  vkhCmdBeginSurvey(context_, commands, &problem_, &survey, nullptr);
+  vkhCmdAdvanceSurvey(context_, commands, &problem_, &survey, waves, nullptr);
+  vkhCmdWriteSurveyFaces(context_, commands, &problem_, &survey, errors.handle, offset, nullptr);
+}
+
+void Pair::write_survey_report(VkCommandBuffer commands, const VkhSurvey& survey,
+                               const Buffer& report) {
+  vkhCmdWriteSurvey(context_, commands, &problem_, &survey, report.handle, 0, nullptr);
 }
 
 }  // namespace example

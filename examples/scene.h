@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/vkhausdorff_experimental.h"
+#include "engine/vkhausdorff.h"
 #include "examples/gpu.h"
 
 namespace example {
@@ -55,10 +55,10 @@ class Pair {
                float tolerance);
   void write_report(VkCommandBuffer commands, const Buffer& report, VkDeviceSize offset);
   /// After certify: writes for each face of a that some point of it is at least so far from b, and
-  /// then for each what none exceeds, floats; in TRANSFER. Needs a gpu of VKH_CONTEXT_CELLS. No
-  /// point of a may be farther from b than `farthest`.
-  void write_face_errors(VkCommandBuffer commands, const VkhSurvey& survey, float farthest,
+  /// then for each what none exceeds, floats; in TRANSFER. Needs a gpu of VKH_CONTEXT_CELLS.
+  void write_face_errors(VkCommandBuffer commands, const VkhSurvey& survey, uint32_t waves,
                          const Buffer& errors, VkDeviceSize offset);
+  void write_survey_report(VkCommandBuffer commands, const VkhSurvey& survey, const Buffer& report);
 
  private:
   VkhContext context_;

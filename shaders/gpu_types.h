@@ -552,6 +552,20 @@ struct SurveyCounts {
   uint above, ties;
 };
 
+// How a survey stands; the first members are VkhSurveyReport. And what its last wave has split.
+struct SurveyWave {
+  uint status;  // kStatus*
+  uint waves;   // that have split cells
+  uint cells;
+  uint open;   // cells that a split may help
+  uint live;   // cells before the split,
+  uint key;    // of which those with a larger one were split,
+  uint ties;   // and so many that have this one
+  uint above;  // cells with a larger one
+  uint parts;  // of each: 2 or 4, the first in its place; 1: A's faces are the cells
+  uint fresh;  // cells without bounds of their own: all parts, or A's faces
+};
+
 // The face of B closest to a point, and d(point, B): base + lower_above <= d <= base + upper_above.
 struct ClosestFace {
   float base, lower_above, upper_above;
@@ -696,8 +710,6 @@ struct CellPush {
   uint first;           // the first of the faces of A, or of the survey's new cells
   uint face_count;      // of A
   uint triangle_count;  // of B
-  uint parts;           // of each cell that was split, the first in its place; 1: none was split
-  uint live;            // the place of the other parts
 };
 
 // survey_begin
@@ -736,18 +748,15 @@ struct SurveyNormalsPush {
 
 // survey_faces
 struct SurveyFacesPush {
-  uint count;    // of cells
   uint classes;  // of those that count
   uint reached;  // 1: what their points reach is wanted, 0: what none exceeds
 };
 
-// survey_count, survey_scan, survey_list and survey_split
-struct SurveySplitPush {
-  uint cells;
-  uint key;    // cells with a larger one are split,
-  uint ties;   // and so many that have this one
-  uint above;  // cells with a larger one
-  uint parts;  // of each: 2 or 4
+// survey_choose
+struct SurveyChoosePush {
+  uint capacity;  // cells that there is room for
+  uint most;      // cells that a wave may split
+  uint splits;    // 0: nothing is chosen, and the wave only tells how the survey stands
 };
 
 // closest_faces

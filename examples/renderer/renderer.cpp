@@ -45,10 +45,14 @@ Buffer filled(Gpu& gpu, const T& content) {
   return made;
 }
 
-/// Memory for the cells of a mesh's faces, one each, for one level after the other.
+/// Memory for a mesh's cells, for one level after the other, with room for a wave that splits all.
 VkhSurvey survey_of(Gpu& gpu, uint32_t faces) {
-  const VkDeviceSize size = vkhGetSurveySize(gpu.context(), faces, faces);
-  return {{gpu.buffer(size, Memory::kDevice).handle, 0, size}, faces};
+  const uint32_t capacity = std::min(4 * faces, vkhGetSurveyCapacity(gpu.context()));
+  const VkDeviceSize size = vkhGetSurveySize(gpu.context(), faces, capacity);
+  return {.size = sizeof(VkhSurvey),
+          .memory = {gpu.buffer(size, Memory::kDevice).handle, 0, size},
+          .capacity = capacity,
+          .faceWidth = 0};
 }
 
 }  // namespace
@@ -116,13 +120,13 @@ RenderedFrame Renderer::frame(uint32_t number, float time, float camera) {
 }
 
 // The first frame builds and starts cold; later ones refit, and start from the frame before. An
-// eighth of a pixel decides between levels well enough.
+// eighth of a pixel decides between levels well enough, and is all that a face's colour shows.
 void Renderer::certify(VkCommandBuffer commands, uint32_t number, float pixel) {
   const auto hierarchy = number == 0 ? Pair::Hierarchy::kBuild : Pair::Hierarchy::kRefit;
   for (uint32_t k = 0; k + 1 < kLevels; ++k) {
     pairs_[k].certify(commands, hierarchy, number > 0, options_.waves, 0.125f * pixel);
     pairs_[k].write_report(commands, reports_, k * kReportStride);
-    pairs_[k].write_face_errors(commands, survey_, 2 * kExtent, errors_, k * bytes_of_errors());
+    pairs_[k].write_face_errors(commands, survey_, 1, errors_, k * bytes_of_errors());
   }
 }
 

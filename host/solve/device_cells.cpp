@@ -48,11 +48,10 @@ void DeviceCells::begin(std::span<const uint64_t> weights, float farthest) {
   grow(buffers_.table, device_, sizeof(gpu::SurveyTable), kRead);
   std::memcpy(buffers_.weights.mapped(), weights.data(), weights.size_bytes());
   count_ = faces;
-  fresh_ = {.first = 0, .count = faces, .parts = 1, .live = 0};
   waiting_.push_back([this, farthest](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
-    const VkhSurveyBegin begin{buffers_.weights.handle(), 0, farthest};
-    vkhCmdBeginSurvey(context_, commands, &problem_, &survey, &begin);
+    const VkhSurveyCells cells{buffers_.weights.handle(), 0, farthest};
+    vkhCmdBeginSurveyCells(context_, commands, &problem_, &survey, &cells);
   });
 }
 
@@ -95,7 +94,7 @@ bool DeviceCells::make_room(size_t cells) {
     return false;
   }
   const VkhSurvey from = view();
-  const VkhSurvey to{{larger.handle(), 0, larger.size()}, capacity};
+  const VkhSurvey to = view_of(larger, capacity);
   waiting_.push_back([&](VkCommandBuffer commands) {
     vkhCmdMoveSurvey(context_, commands, &problem_, &from, &to, count_);
   });
@@ -113,15 +112,12 @@ bool DeviceCells::split(const SurveyChoice& choice) {
     const VkhSurveySplit split{cells, choice.bin, choice.ties, choice.above, choice.parts};
     vkhCmdSplitSurvey(context_, commands, &problem_, &survey, &split);
   });
-  fresh_ = {.first = 0, .count = more + choice.count(), .parts = choice.parts, .live = count_};
   count_ += more;
   return true;
 }
 
 void DeviceCells::bound(size_t first, size_t count, bool wait) {
-  VkhSurveyBound some = fresh_;
-  some.first = static_cast<uint32_t>(first);
-  some.count = static_cast<uint32_t>(count);
+  const VkhSurveyBound some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
   waiting_.push_back([this, some](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
     vkhCmdBoundSurvey(context_, commands, &problem_, &survey, &some, nullptr);
@@ -189,7 +185,7 @@ std::vector<float> DeviceCells::faces(uint32_t reached_classes, uint32_t highest
     const VkhSurvey survey = view();
     const VkhSurveyFaces asked{count_, reached_classes, highest_classes, buffers_.faces.handle(),
                                0};
-    vkhCmdWriteSurveyFaces(context_, commands, &problem_, &survey, &asked);
+    vkhCmdFindSurveyFaces(context_, commands, &problem_, &survey, &asked);
   });
   submit();
   std::memcpy(faces.data(), buffers_.faces.mapped(), faces.size() * sizeof(float));
@@ -202,7 +198,7 @@ void DeviceCells::write(const CellRange& some, std::span<const gpu::CellBounds> 
   waiting_.push_back([this, some](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
     const VkhSurveyWrite write{some.first, some.count, buffers_.known.handle(), 0};
-    vkhCmdWriteSurvey(context_, commands, &problem_, &survey, &write);
+    vkhCmdNarrowSurvey(context_, commands, &problem_, &survey, &write);
   });
   submit();
 }

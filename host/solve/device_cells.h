@@ -46,8 +46,9 @@ class DeviceCells : public SurveyCells {
   void write(const CellRange& some, std::span<const gpu::CellBounds> bounds) override;
 
  private:
-  VkhSurvey view() const {
-    return {{buffers_.memory.handle(), 0, buffers_.memory.size()}, capacity_};
+  VkhSurvey view() const { return view_of(buffers_.memory, capacity_); }
+  static VkhSurvey view_of(const Buffer& memory, uint32_t capacity) {
+    return {sizeof(VkhSurvey), {memory.handle(), 0, memory.size()}, capacity, 0};
   }
   bool make_room(size_t cells);
   void write_plan(const gpu::SurveyPlan& plan);
@@ -60,7 +61,6 @@ class DeviceCells : public SurveyCells {
   const Submit submit_;
   std::vector<Record> waiting_;  // for the next submission
   uint32_t capacity_ = 0, count_ = 0;
-  VkhSurveyBound fresh_{};  // the new cells
   NormalSearch normals_;
 };
 

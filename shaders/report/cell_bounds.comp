@@ -1,9 +1,9 @@
 // Bounds d(x, B) over cells of A, one item per cell: sub-triangles of its faces; faces push.first
-// and after; or a survey's new cells, at their places. In: cells; A and B's BVH. Out: bounds[cell],
-// and of a survey's cell its start and its face's faces_reached, a float as bits. One
-// traversal finds the triangle nearest to the cell's middle; another examines all that may be
-// closest somewhere on the cell (report/cell.h), kCellTriangles of them at most; boxes stand for
-// the rest. Each result depends on its cell alone. If A or B is no mesh, or if there is no run
+// and after; or a survey's new cells, of which wave tells the places. In: cells, wave; A and B's
+// BVH. Out: bounds[cell], and of a survey's cell its start and its face's faces_reached, a float as
+// bits. One traversal finds the triangle nearest to the cell's middle; another examines all that
+// may be closest somewhere on the cell (report/cell.h), kCellTriangles of them at most; boxes stand
+// for the rest. Each result depends on its cell alone. If A or B is no mesh, or if there is no run
 // (push.triangle_count is 0), bounds are NaN.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -23,6 +23,7 @@ layout(scalar, binding = 8) buffer Bounds { CellBounds bounds[]; };
 layout(scalar, binding = 9) readonly buffer BFault { uint b_fault; };
 layout(scalar, binding = 10) readonly buffer Parents { uint parents[]; };
 layout(scalar, binding = 11) buffer FacesReached { uint faces_reached[]; };
+layout(scalar, binding = 12) readonly buffer WaveBlock { SurveyWave wave; };
 layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 
 #include "shaders/base/root.glsl"
@@ -34,10 +35,14 @@ layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 uint place_of(uint i) {
   if (push.given != kSurveyCells) return i;
   uint item = push.first + i;
-  if (push.parts <= 1u) return item;
-  uint rank = item / push.parts;
-  uint part = item - rank * push.parts;
-  return part == 0u ? parents[rank] : push.live + (push.parts - 1u) * rank + part - 1u;
+  if (wave.parts <= 1u) return item;
+  uint rank = item / wave.parts;
+  uint part = item - rank * wave.parts;
+  return part == 0u ? parents[rank] : wave.live + (wave.parts - 1u) * rank + part - 1u;
+}
+
+bool is_asked(uint i) {
+  return i < push.count && (push.given != kSurveyCells || push.first + i < wave.fresh);
 }
 
 Cell cell_at(uint i) {
@@ -169,15 +174,15 @@ CellBounds nothing_known() {
 
 void main() {
   uint i = item_index();
-  if (i >= push.count) return;
+  if (!is_asked(i)) return;
+  uint place = place_of(i);
   if (!is_of_meshes()) {
-    bounds[i] = nothing_known();
+    bounds[place] = nothing_known();
     return;
   }
   Cell cell = cell_at(i);
   CellFrame t = make_cell(load_root(cell.face), unpack_corners(cell.corners));
   CellBounds found = bounds_of(with_pairs(gather(t, cell.start), t), t);
-  uint place = place_of(i);
   if (push.given == kSurveyCells) found = kept_bounds(found, place, cell.face);
   bounds[place] = found;
 }

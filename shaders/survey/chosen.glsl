@@ -1,5 +1,5 @@
-// Which cells a wave splits: those with a key above push.key, and of those with this key the first
-// push.ties. The kernel declares `keys`, `push`.
+// Which cells a wave splits: those with a key above wave.key, and of those with this key the first
+// wave.ties. The kernel declares `keys`, `wave`.
 #ifndef VKH_SHADERS_SURVEY_CHOSEN_GLSL
 #define VKH_SHADERS_SURVEY_CHOSEN_GLSL
 
@@ -10,8 +10,8 @@ uint first_of_lane() {
   return workgroup_index() * kSurveyBlock + gl_LocalInvocationID.x * kCellsOfLane;
 }
 
-bool is_above(uint i) { return i < push.cells && keys[i] > push.key; }
-bool is_tie(uint i) { return i < push.cells && keys[i] == push.key; }
+bool is_above(uint i) { return i < wave.live && keys[i] > wave.key; }
+bool is_tie(uint i) { return i < wave.live && keys[i] == wave.key; }
 
 SurveyCounts counts_of_lane() {
   uint first = first_of_lane();

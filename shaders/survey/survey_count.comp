@@ -1,4 +1,5 @@
-// Counts the cells of each block that a wave may split. In: keys. Out: blocks, one per workgroup.
+// Counts the cells of each block that a wave may split. In: keys, wave. Out: blocks, one per
+// workgroup.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -7,7 +8,7 @@
 layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 1) writeonly buffer Blocks { SurveyCounts blocks[]; };
-layout(scalar, push_constant) uniform PushBlock { SurveySplitPush push; };
+layout(scalar, binding = 2) readonly buffer WaveBlock { SurveyWave wave; };
 
 #include "shaders/survey/chosen.glsl"
 

@@ -1,5 +1,5 @@
 // Raises what is told of each face to that of its cells of some classes: what none exceeds, or what
-// their points reach. In: cells, bounds, classes. Out: faces_told, floats as bits.
+// their points reach. In: cells, bounds, classes, wave. Out: faces_told, floats as bits.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -11,11 +11,12 @@ layout(scalar, binding = 0) readonly buffer Cells { Cell cells[]; };
 layout(scalar, binding = 1) readonly buffer Bounds { CellBounds bounds[]; };
 layout(scalar, binding = 2) readonly buffer Classes { uint classes[]; };
 layout(scalar, binding = 3) buffer FacesTold { uint faces_told[]; };
+layout(scalar, binding = 4) readonly buffer WaveBlock { SurveyWave wave; };
 layout(scalar, push_constant) uniform PushBlock { SurveyFacesPush push; };
 
 void main() {
   uint i = item_index();
-  if (i >= push.count || !is_among(classes[i], push.classes)) return;
+  if (i >= wave.cells || !is_among(classes[i], push.classes)) return;
   float told = push.reached != 0u ? bounds[i].reached : bounds[i].highest;
   atomicMax(faces_told[cells[i].face], bits_of(told));
 }

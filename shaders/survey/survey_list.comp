@@ -1,5 +1,5 @@
 // Lists the chosen cells in their order: those above the key, and then those that have it. In:
-// keys, blocks. Out: parents, their places. A workgroup for each block.
+// keys, blocks, wave. Out: parents, their places. A workgroup for each block.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -9,7 +9,7 @@ layout(local_size_x = kGroupSize) in;
 layout(scalar, binding = 0) readonly buffer Keys { uint keys[]; };
 layout(scalar, binding = 1) readonly buffer Blocks { SurveyCounts blocks[]; };
 layout(scalar, binding = 2) writeonly buffer Parents { uint parents[]; };
-layout(scalar, push_constant) uniform PushBlock { SurveySplitPush push; };
+layout(scalar, binding = 3) readonly buffer WaveBlock { SurveyWave wave; };
 
 #include "shaders/survey/chosen.glsl"
 
@@ -42,7 +42,7 @@ void main() {
   for (uint k = 0u; k < kCellsOfLane; ++k) {
     uint i = first + k;
     if (is_above(i)) parents[before.above++] = i;
-    if (is_tie(i) && before.ties < push.ties) parents[push.above + before.ties] = i;
+    if (is_tie(i) && before.ties < wave.ties) parents[wave.above + before.ties] = i;
     if (is_tie(i)) ++before.ties;
   }
 }

@@ -1,4 +1,5 @@
-// Sums the blocks' counts: each block gets those of the blocks before it. One workgroup.
+// Sums the blocks' counts: each block gets those of the blocks before it. In: wave. In and out:
+// blocks. One workgroup.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -6,14 +7,14 @@
 
 layout(local_size_x = kSortGroup) in;
 layout(scalar, binding = 0) buffer Blocks { SurveyCounts blocks[]; };
-layout(scalar, push_constant) uniform PushBlock { SurveySplitPush push; };
+layout(scalar, binding = 1) readonly buffer WaveBlock { SurveyWave wave; };
 
 shared uint above[kSortGroup];
 shared uint ties[kSortGroup];
 
 void main() {
   uint lane = gl_LocalInvocationID.x;
-  uint count = (push.cells + kSurveyBlock - 1u) / kSurveyBlock;
+  uint count = (wave.live + kSurveyBlock - 1u) / kSurveyBlock;
   uint per_lane = (count + kSortGroup - 1u) / kSortGroup;
   uint begin = min(lane * per_lane, count);
   uint end = min(begin + per_lane, count);

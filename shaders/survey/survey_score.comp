@@ -1,7 +1,7 @@
 // Scores cells by the plan. In: cells, bounds, classes, agreements, weights, faces_reached (floats
-// as bits), plan. Out: keys, the bins of the cells' scores, and histogram: how many cells each bin
-// has, and its bin 0 how many are in their face's way although no split helps. A workgroup goes
-// over many cells.
+// as bits), plan, wave. Out: keys, the bins of the cells' scores, and histogram: how many cells
+// each bin has, and its bin 0 how many are in their face's way although no split helps. A workgroup
+// goes over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,6 +17,7 @@ layout(scalar, binding = 5) buffer Histogram { uint histogram[]; };
 layout(scalar, binding = 6) readonly buffer FacesReached { uint faces_reached[]; };
 layout(scalar, binding = 7) readonly buffer Classes { uint classes[]; };
 layout(scalar, binding = 8) readonly buffer Agreements { CellAgreement agreements[]; };
+layout(scalar, binding = 9) readonly buffer WaveBlock { SurveyWave wave; };
 layout(scalar, push_constant) uniform PushBlock { SurveyPush push; };
 
 #include "shaders/survey/score.h"
@@ -81,7 +82,8 @@ void main() {
   for (uint bin = lane; bin < kScoreBins; bin += kGroupSize) counts[bin] = 0u;
   barrier();
   uint stride = kGroupSize * push.groups;
-  for (uint i = push.first + item_index(); i < push.end; i += stride) {
+  uint end = min(push.end, wave.cells);
+  for (uint i = push.first + item_index(); i < end; i += stride) {
     Key key = key_of(i);
     keys[i] = key.bin;
     if (key.bin > 0u || key.is_stuck) atomicAdd(counts[key.bin], 1u);

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -78,14 +79,15 @@ TEST_CASE("vkh_frames: every mode of every frame closes, and the modes agree") {
   const Outcome outcome =
       run_example("VKH_EXAMPLE_FRAMES", {"--frames", "3", "--cells", "32", "24"});
   const Rows rows = parse_csv(outcome.out);
-  REQUIRE(rows.size() == 1 + 3 * 3);
+  constexpr std::array kModes{"warm", "cold", "rebuild", "faces"};
+  REQUIRE(rows.size() == 1 + 3 * kModes.size());
   CHECK(outcome.out.rfind("frame,mode,gpu_ms,wall_ms,lower,upper,closed,waves\n", 0) == 0);
   for (size_t frame = 0; frame < 3; ++frame) {
     double lower = 0, upper = 1e30;
-    for (size_t mode = 0; mode < 3; ++mode) {
-      const auto& row = rows[1 + 3 * frame + mode];
+    for (size_t mode = 0; mode < kModes.size(); ++mode) {
+      const auto& row = rows[1 + kModes.size() * frame + mode];
       REQUIRE(row.size() == 8);
-      CHECK(row[1] == (mode == 0 ? "warm" : mode == 1 ? "cold" : "rebuild"));
+      CHECK(row[1] == kModes[mode]);
       CHECK(std::stod(row[2]) > 0);
       CHECK(row[6] == "1");
       lower = std::max(lower, std::stod(row[4]));
@@ -95,6 +97,6 @@ TEST_CASE("vkh_frames: every mode of every frame closes, and the modes agree") {
     CHECK(lower <= upper);
   }
   CHECK(outcome.err.find("1536 faces against 384") != std::string::npos);
-  for (const char* word : {"warm", "cold", "rebuild", "median", "p99", "0 not closed"})
+  for (const char* word : {"warm", "cold", "rebuild", "faces: ", "median", "p99", "0 not closed"})
     CHECK(outcome.err.find(word) != std::string::npos);
 }

@@ -1,9 +1,8 @@
-// Surveys through the C API alone: cells tile their faces, bounds are true, the table has A's area,
-// and calls that break a rule are told and record nothing.
+// Surveys by plans, through the C API alone: cells tile their faces, bounds are true, the table has
+// A's area, and calls that break a rule are told and record nothing.
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cfloat>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -55,11 +54,11 @@ struct SurveyBench {
         given(test_device(), 65536 + 8 * faces, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
               Placement::kUpload),
         found(test_device(), 4'000'000, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback),
-        survey{{memory.handle(), 0, memory.size()}, capacity} {
+        survey{sizeof(VkhSurvey), {memory.handle(), 0, memory.size()}, capacity, 0} {
     const std::vector<uint64_t> weights(faces, kWeight);
     std::memcpy(given.mapped() + 65536, weights.data(), 8 * faces);
   }
-  VkhSurveyBegin begin(float farthest) const { return {given.handle(), 65536, farthest}; }
+  VkhSurveyCells begin(float farthest) const { return {given.handle(), 65536, farthest}; }
   void plan(const gpu::SurveyPlan& plan) { std::memcpy(given.mapped(), &plan, sizeof(plan)); }
   VkhSurveyScore score(uint32_t cells) const {
     return {0, cells, given.handle(), 0, found.handle(), 0};
@@ -99,10 +98,10 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
     pair.run([&](VkCommandBuffer c) {
       pair.build(c);
       pair.begin(c);
-      const VkhSurveyBegin begin = bench.begin(4);
-      const VkhSurveyBound bound{0, faces, 1, 0};
+      const VkhSurveyCells begin = bench.begin(4);
+      const VkhSurveyBound bound{0, faces};
       const VkhSurveyScore score = bench.score(faces);
-      vkhCmdBeginSurvey(context.get(), c, &pair.problem(), &bench.survey, &begin);
+      vkhCmdBeginSurveyCells(context.get(), c, &pair.problem(), &bench.survey, &begin);
       vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &bound, nullptr);
       vkhCmdScoreSurvey(context.get(), c, &pair.problem(), &bench.survey, &score);
       record_host_barrier(c);
@@ -113,8 +112,8 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
     const VkhSurveySplit split{faces, bin, faces / 3 - above, above, 4};
     const uint32_t parents = split.ties + split.above, cells = faces + 3 * parents;
     pair.run([&](VkCommandBuffer c) {
-      const VkhSurveyBound first{0, parents, 4, faces};  // in two parts
-      const VkhSurveyBound rest{parents, 3 * parents, 4, faces};
+      const VkhSurveyBound first{0, parents};  // in two parts
+      const VkhSurveyBound rest{parents, 3 * parents};
       const VkhSurveyTally tally = bench.tally(cells, 127 + 3);
       const VkBuffer found = bench.found.handle();
       const VkhSurveyFaces told{cells, gpu::kAllClasses, gpu::kAllClasses, found, 65536};
@@ -124,8 +123,8 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
       vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &rest, nullptr);
       vkhCmdTallySurvey(context.get(), c, &pair.problem(), &bench.survey, &tally);
       const VkhSurveyFaces same{cells, UINT32_MAX, UINT32_MAX, found, 98304};
-      vkhCmdWriteSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &told);
-      vkhCmdWriteSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &same);
+      vkhCmdFindSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &told);
+      vkhCmdFindSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &same);
       vkhCmdReadSurvey(context.get(), c, &pair.problem(), &bench.survey, &read);
       record_host_barrier(c);
     });
@@ -154,38 +153,6 @@ TEST_CASE("cells are split where they score, tile their faces and have true boun
       CHECK(of_faces[found[i].face] <= of_faces[faces + found[i].face]);
     }
     CHECK(std::all_of(area.begin(), area.end(), [](double x) { return x == 1; }));
-  }
-}
-
-TEST_CASE("errors of faces need no weights, and nothing that is known before") {
-  const ContextHandle context = make_context(VKH_DEVICE_KIND_NARROW);
-  ApiMesh a(icosphere(1.0, 1)), b(translated(icosphere(1.1, 2), {0.1, 0.2, 0.05}));
-  ApiPair pair(a, b, 1e-3f, context.get());
-  const auto faces = static_cast<uint32_t>(a.mesh().faces.size());
-  SurveyBench bench(context.get(), faces, faces);
-  const auto errors = [&](const VkhSurveyBegin& begin) {
-    pair.run([&](VkCommandBuffer c) {
-      const VkhSurveyBound bound{0, faces, 1, 0};
-      const VkhSurveyFaces told{faces, UINT32_MAX, UINT32_MAX, bench.found.handle(), 0};
-      pair.build(c);
-      pair.begin(c);
-      vkhCmdBeginSurvey(context.get(), c, &pair.problem(), &bench.survey, &begin);
-      vkhCmdBoundSurvey(context.get(), c, &pair.problem(), &bench.survey, &bound, nullptr);
-      vkhCmdWriteSurveyFaces(context.get(), c, &pair.problem(), &bench.survey, &told);
-      record_host_barrier(c);
-    });
-    return bench.read<float>(0, 2 * size_t{faces});
-  };
-  const std::vector<float> without = errors({VK_NULL_HANDLE, 0, FLT_MAX});
-  CHECK(without == errors(bench.begin(4)));
-  for (uint32_t i = 0; i < faces; ++i) {
-    Mesh face;
-    face.faces = {{0, 1, 2}};
-    for (int k = 0; k < 3; ++k) face.vertices.push_back(a.mesh().vertices[a.mesh().faces[i][k]]);
-    const Interval exact = reference_hausdorff(face, b.mesh(), 1e-6);
-    CHECK(static_cast<double>(without[i]) <= exact.upper);
-    CHECK(static_cast<double>(without[faces + i]) >= exact.lower);
-    CHECK(without[faces + i] < 4);
   }
 }
 
@@ -219,8 +186,13 @@ TEST_CASE("a survey's rules are told, and what breaks them records nothing") {
   VkhSurvey none = bench.survey;
   none.memory.buffer = VK_NULL_HANDLE;
   check("VkhMemory::buffer", none, faces);
+  VkhSurvey unknown = bench.survey;
+  unknown.size += 4;
+  check("VkhSurvey::size", unknown, faces);
+  VkhSurvey endless = bench.survey;
+  endless.faceWidth = -1;
+  check("VkhSurvey::faceWidth", endless, faces);
   check("a survey: room for all cells", bench.survey, 2 * faces + 1);
-  check("a survey: room for all cells", bench.survey, 0);
 }
 
 }  // namespace

@@ -101,6 +101,8 @@ class Run {
     for (uint32_t i = 0; i < count; ++i) pairs_.push_back(make_pair(bytes));
     for (size_t i = 0; i < pairs_.size(); ++i)
       bench(i).take(pairs_[i], context(), state.device.covers(context_));
+    if (!state.device.surveys(context_)) return;
+    for (size_t i = 0; i < pairs_.size(); ++i) reserve_survey(i, bytes.byte());
   }
 
   void check() {
@@ -110,6 +112,7 @@ class Run {
                                              : Interval{});
       check_reports(i);
     }
+    if (!survey_waves_.empty()) survey();
     finish();
     if (std::any_of(pairs_.begin(), pairs_.end(), [](const FuzzPair& p) { return p.later; }))
       second_frame();
@@ -186,6 +189,69 @@ class Run {
     if (state_.device.covers(context_)) check_coverage(bench(i).coverage());
   }
 
+  /// Without bytes: A's faces are the cells.
+  void reserve_survey(size_t i, uint8_t ways) {
+    const uint32_t cells_a_face = 1 + ways % 8, width = ways / 32;
+    bench(i).reserve_survey(context(), cells_a_face,
+                            pairs_[i].tolerance * static_cast<float>(width));
+    survey_waves_.push_back(ways / 8 % 4);
+  }
+
+  void record_survey_output(VkCommandBuffer commands, size_t i, uint32_t slot) {
+    PairBench& b = bench(i);
+    vkhCmdWriteSurvey(context(), commands, &b.problem, &b.survey, b.report_buffer(),
+                      b.survey_offset(slot), nullptr);
+    vkhCmdWriteSurveyFaces(context(), commands, &b.problem, &b.survey, b.report_buffer(),
+                           b.survey_offset(slot) + sizeof(VkhSurveyReport), nullptr);
+  }
+
+  void survey() {
+    state_.device.run([&](VkCommandBuffer commands) {
+      for (size_t i = 0; i < pairs_.size(); ++i) {
+        PairBench& b = bench(i);
+        vkhCmdBeginSurvey(context(), commands, &b.problem, &b.survey, nullptr);
+        record_survey_output(commands, i, 0);
+        vkhCmdAdvanceSurvey(context(), commands, &b.problem, &b.survey, survey_waves_[i], nullptr);
+        record_survey_output(commands, i, 1);
+      }
+    });
+    for (size_t i = 0; i < pairs_.size(); ++i) {
+      require(bench(i).is_untouched_around(), "surveys write nothing around their memory");
+      check_survey_report(i, 0);
+      check_survey_report(i, 1);
+      if (pairs_[i].is_promised) check_face_errors(i);
+    }
+  }
+
+  void check_survey_report(size_t i, uint32_t slot) {
+    const VkhSurveyReport told = bench(i).survey_report(slot);
+    const uint32_t faces = pairs_[i].a.face_count();
+    require(told.status <= VKH_STATUS_MEMORY, "a survey's status is one");
+    require(told.cells >= faces && told.cells <= bench(i).survey.capacity, "cells have room");
+    require(told.waves <= slot * survey_waves_[i], "waves were recorded");
+    require(
+        (told.open > 0) == (told.status == VKH_STATUS_RUNNING || told.status == VKH_STATUS_MEMORY),
+        "a survey goes on where cells are open");
+  }
+
+  /// A face of A against the reference of that face alone.
+  void check_face_errors(size_t i) {
+    const std::vector<float> before = bench(i).face_errors(0), after = bench(i).face_errors(1);
+    const uint32_t faces = pairs_[i].a.face_count();
+    const double raised = state_.raises_lower ? 0.01 : 0.0;
+    for (uint32_t face = 0; face < faces; ++face) {
+      FuzzMesh alone = pairs_[i].a;
+      alone.corners.assign(&pairs_[i].a.corners[3 * size_t{face}],
+                           &pairs_[i].a.corners[3 * size_t{face}] + 3);
+      const Interval exact = reference(alone, pairs_[i].b, pairs_[i]);
+      const double reached = double{after[face]} + raised * double{after[faces + face]};
+      require(after[face] >= before[face] && after[faces + face] <= before[faces + face],
+              "errors of faces only get narrower");
+      require(reached <= exact.upper, "some point of the face is so far");
+      require(double{after[faces + face]} >= exact.lower, "no point of the face is farther");
+    }
+  }
+
   void check_coverage(const std::vector<uint64_t>& words) {
     const size_t faces = words.size() / 2;
     for (size_t f = 0; f < faces; ++f) {
@@ -235,6 +301,7 @@ class Run {
   size_t context_ = 0;
   bool in_tasks_ = false;
   std::vector<FuzzPair> pairs_;
+  std::vector<uint32_t> survey_waves_;  // of each pair; none: the context has no surveys
   std::vector<Interval> exact_;
 };
 

@@ -32,8 +32,8 @@ VkDeviceSize aligned(VkDeviceSize at) { return (at + 255) / 256 * 256; }
 
 }  // namespace
 
-// Every family of kernels: those of the CPU profile, of the GPU profile, of the paper, and all at
-// once with coverage.
+// Every family of kernels: those of the CPU profile and of the GPU profile, which have surveys, of
+// the paper, and all at once with coverage.
 FuzzDevice::FuzzDevice(size_t context_count)
     : device_({.selector = environment("VKH_TEST_DEVICE"),
                .validation = *environment("VKH_VALIDATION") != '\0'}),
@@ -45,8 +45,8 @@ FuzzDevice::FuzzDevice(size_t context_count)
     VkhDeviceKind kind;
   };
   constexpr std::array<Ways, kMostContexts> kWays = {
-      {{VKH_SWITCH_DEFAULT_NARROW, 0, VKH_DEVICE_KIND_NARROW},
-       {VKH_SWITCH_DEFAULT_WIDE, 0, VKH_DEVICE_KIND_WIDE},
+      {{VKH_SWITCH_DEFAULT_NARROW, VKH_CONTEXT_CELLS, VKH_DEVICE_KIND_NARROW},
+       {VKH_SWITCH_DEFAULT_WIDE, VKH_CONTEXT_CELLS, VKH_DEVICE_KIND_WIDE},
        {kPaper, 0, VKH_DEVICE_KIND_WIDE},
        {VKH_SWITCH_NONE, 0, VKH_DEVICE_KIND_NARROW},
        {VKH_SWITCH_DEFAULT_WIDE, VKH_CONTEXT_COVERAGE, VKH_DEVICE_KIND_WIDE}}};
@@ -162,6 +162,29 @@ void PairBench::move() {
   problem.a = put(pair_->later_a, 0, kMeshBytes / 4);
   b = put(pair_->later_b, kMeshBytes / 2, kMeshBytes * 3 / 4);
   problem.options.warm = pair_->warm ? VK_TRUE : VK_FALSE;
+}
+
+void PairBench::reserve_survey(VkhContext context, uint32_t cells_a_face, float face_width) {
+  const uint32_t faces = problem.a.faceCount, cells = cells_a_face * faces;
+  survey = {.size = sizeof(VkhSurvey),
+            .memory = reserve(vkhGetSurveySize(context, faces, cells)),
+            .capacity = cells,
+            .faceWidth = face_width};
+  for (VkDeviceSize& at : surveys_at_)
+    at = reserve(sizeof(VkhSurveyReport) + 2 * faces * sizeof(float)).offset;
+}
+
+VkhSurveyReport PairBench::survey_report(uint32_t slot) const {
+  VkhSurveyReport report;
+  std::memcpy(&report, working_.mapped() + survey_offset(slot), sizeof(report));
+  return report;
+}
+
+std::vector<float> PairBench::face_errors(uint32_t slot) const {
+  std::vector<float> errors(2 * size_t{problem.a.faceCount});
+  std::memcpy(errors.data(), working_.mapped() + survey_offset(slot) + sizeof(VkhSurveyReport),
+              errors.size() * sizeof(float));
+  return errors;
 }
 
 VkhReport PairBench::report(uint32_t slot) const {
