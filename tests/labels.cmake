@@ -35,7 +35,7 @@ vkh_folder(files malformed_files bodies files_by_program)
 vkh_folder(engine shader_contract embed_shaders float_places report_glsl api_c11 compile_amd)
 vkh_folder(solve metrics_long placed_limits_long)
 vkh_folder(app schema batch batch_folders batch_killed pair_schema many_pairs exit_codes native_program folder_pairs simplify_program doctor pipelines
-               see points points_many effort metrics align completion recipes slurm clusters)
+               see points points_many effort metrics align completion recipes pages packed_glb slurm clusters)
 vkh_folder(verification vulkan_faults_of_sets guarded fallbacks barriers real_devices vkh_check certificates placing regrouped
                         mutation_quick leaks)
 vkh_folder(lint tables layer_functions rooms links style readme benchmark_page clang clang_all clang_tidy)

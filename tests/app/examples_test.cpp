@@ -52,11 +52,11 @@ Rows parse_csv(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("the guide quotes the embedding example to the letter, and it is about thirty lines") {
+TEST_CASE("the page quotes the embedding example to the letter, and it is about thirty lines") {
   const std::string source = read_file(VKH_SOURCE_DIR "/examples/embed.cpp");
-  const std::string guide = read_file(VKH_SOURCE_DIR "/docs/guide.md");
+  const std::string page = read_file(VKH_SOURCE_DIR "/docs/embedding.md");
   const std::string example = between_marks(source, "// [embed]\n", "// [embed]\n");
-  CHECK(between_marks(guide, "<!-- examples/embed.cpp -->\n```cpp\n", "```\n") == example);
+  CHECK(between_marks(page, "<!-- examples/embed.cpp -->\n```cpp\n", "```\n") == example);
   const auto lines = std::count(example.begin(), example.end(), '\n');
   CHECK(lines >= 20);
   CHECK(lines <= 31);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The guide's recipes for build servers (docs/recipes): their gates are run here, on a part and its reference.
+"""The recipes for build servers (docs/recipes): their gates are run here, on a part and its reference.
 
 usage: recipes_test.py PROGRAM RECIPES. What a server brings itself (its images, its annotations' page) is not run.
 """

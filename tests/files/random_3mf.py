@@ -1,7 +1,7 @@
 """Random 3MF packages as slicers write them, with the triangles that are to be read from each.
 
 The expected result is computed from the description that the package is written from. Its rules are
-those of docs/guide.md and of the slicers' formats; no code is shared with the program.
+those of docs/formats.md and of the slicers' formats; no code is shared with the program.
 """
 
 import dataclasses

@@ -42,7 +42,7 @@ by_hand() {
   install_says out/program NO
   built_by_hand
   for program in examples/vkh_embed examples/vkh_frames examples/vkh_renderer tools/vkh_bench; do
-    [ -x "out/$program" ] || fail "docs/guide.md names out/$program, which is not built"
+    [ -x "out/$program" ] || fail "out/$program, which the pages name, is not built"
   done
   install_says out "$has_python"
   step cmake --preset release

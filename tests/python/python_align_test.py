@@ -97,7 +97,7 @@ class Fits(unittest.TestCase):
             with self.assertRaises(TypeError):
                 call()
 
-    def test_the_example_of_the_guide(self):
+    def test_the_example(self):
         example = pathlib.Path(__file__).parent.parent / "package" / "align_example.py"
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "part.ply"), "w", encoding="ascii") as out:

@@ -129,7 +129,7 @@ class Certificates(unittest.TestCase):
             vkh.distance(*A, *B, certificate=self.path)
         self.assertEqual(raised.exception.file, str(self.path))
 
-    def test_the_guides_example(self):
+    def test_the_example(self):
         example = pathlib.Path(__file__).resolve().parents[1] / "package/certificate_example.py"
         before = os.getcwd()
         os.chdir(self.folder)

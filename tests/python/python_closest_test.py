@@ -124,7 +124,7 @@ class ClosestPoints(unittest.TestCase):
         with self.assertRaises(TypeError):
             vkh.closest((CUBE, CUBE_FACES), [[0, 0, 0]], "")
 
-    def test_the_guides_example(self):
+    def test_the_example(self):
         example = pathlib.Path(__file__).parent.parent / "package" / "closest_example.py"
         done = subprocess.run([sys.executable, "-B", example], capture_output=True, text=True, timeout=120)
         self.assertEqual((done.returncode, done.stderr), (0, ""))

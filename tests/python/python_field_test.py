@@ -321,7 +321,7 @@ class Values(unittest.TestCase):
         for band, mine in zip(said["bands"], survey.bands.values()):
             self.assertEqual(interval(band["share"]), tuple(mine))
 
-    def test_the_guides_example(self):
+    def test_the_example(self):
         done = subprocess.run([sys.executable, pathlib.Path(__file__).resolve().parents[1] / "package/field_example.py"], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertTrue(done.stdout.endswith("Interval(lower=1.0, upper=1.0)\npass\n"), done.stdout)

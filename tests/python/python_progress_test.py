@@ -168,7 +168,7 @@ class Many(unittest.TestCase):
 
 
 class Example(unittest.TestCase):
-    def test_the_guides_example(self):
+    def test_the_example(self):
         example = pathlib.Path(__file__).resolve().parents[1] / "package/device_example.py"
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([sys.executable, "-B", example], capture_output=True, text=True, cwd=folder)

@@ -92,7 +92,7 @@ class Simplify(unittest.TestCase):
             with self.subTest(wrong), self.assertRaisesRegex(ValueError, f"^{next(iter(wrong))}: expected a"):
                 vkh.simplify_levels((VERTICES, FACES), 0.05, **wrong)
 
-    def test_the_guides_examples(self):
+    def test_the_examples(self):
         for name, said in (("simplify", "<vkhausdorff.Simplified of "), ("levels", "level 0")):
             example = pathlib.Path(__file__).parent.parent / "package" / f"{name}_example.py"
             done = subprocess.run([sys.executable, "-B", example], capture_output=True, text=True, timeout=120)

@@ -195,7 +195,7 @@ TEST_CASE("a wave a submission: the same run, and the host hears of every wave")
 
 namespace {
 
-/// A row of the guide's table, `| a | b |`, without its first and last bar.
+/// A row of the page's table, `| a | b |`, without its first and last bar.
 std::vector<std::string> cells(const std::string& row) {
   std::vector<std::string> out;
   std::istringstream in(row.substr(1));
@@ -206,11 +206,11 @@ std::vector<std::string> cells(const std::string& row) {
   return out;
 }
 
-std::map<std::string, std::vector<std::string>> table_of_guide() {
-  std::ifstream guide(VKH_SOURCE_DIR "/docs/guide.md");
+std::map<std::string, std::vector<std::string>> table_of_switches() {
+  std::ifstream page(VKH_SOURCE_DIR "/docs/method.md");
   std::map<std::string, std::vector<std::string>> rows;
   bool inside = false;
-  for (std::string line; std::getline(guide, line);) {
+  for (std::string line; std::getline(page, line);) {
     if (line.starts_with("| switch |")) inside = true;
     if (!line.starts_with("|")) inside = false;
     if (inside && line.starts_with("| `")) rows[cells(line)[0]] = cells(line);
@@ -220,8 +220,8 @@ std::map<std::string, std::vector<std::string>> table_of_guide() {
 
 }  // namespace
 
-TEST_CASE("the guide's table has every switch, and where it is on") {
-  const auto rows = table_of_guide();
+TEST_CASE("the page's table has every switch, and where it is on") {
+  const auto rows = table_of_switches();
   const uint32_t host = kSwitchMultiwave;
   EngineOptions paper, baseline;
   paper.preset = "paper";

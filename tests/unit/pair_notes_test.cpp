@@ -1,4 +1,4 @@
-// The notes on a pair fire where docs/guide.md says, and nowhere else.
+// The notes on a pair fire where docs/formats.md says, and nowhere else.
 #include "host/answer/pair_notes.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // Notes that people should know about an answer or a file. Each has a code, which programs may rely
-// on, and may have the figure that its text names. docs/guide.md lists the codes.
+// on, and may have the figure that its text names. docs/formats.md lists the codes.
 #pragma once
 
 #include <cstdint>
