@@ -133,27 +133,19 @@ d = vkh.Device()
 m = vkh.metrics(a, b)
 light = vkh.simplify(a, max=0.1)
 """
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
-PROGRAMS = sorted((ROOT / "docs").rglob("*.py"))
-
-
-def is_python(code: str) -> bool:
-    """False of a Snakefile, whose block is marked as Python."""
-    try:
-        ast.parse(code)
-    except SyntaxError:
-        return False
-    return True
+README = ROOT / "README.md"
+PAGES = [README, *sorted(set((ROOT / "docs").glob("*.md")) - {ROOT / "docs/embedding.md"})]  # that one is of C++
+PROGRAMS = [*sorted((ROOT / "docs").rglob("*.py")), *sorted((ROOT / "tests/package").glob("*example.py"))]  # quoted by pages
 
 
 def documented() -> tuple[list[str], list[str]]:
-    """The blocks of Python on all pages, and the programs beside them; the expressions in the pages' sentences that are whole:
-    a call or a member of what CALLS names."""
-    blocks, calls = [program.read_text() for program in PROGRAMS], set()
+    """README's block of Python, and the programs that pages quote parts of; the expressions in the pages' sentences that are
+    whole: a call or a member of what CALLS names."""
+    blocks = [program.read_text() for program in PROGRAMS] + re.findall(r"^```python\n(.*?)^```", README.read_text(), re.M | re.S)
+    calls = set()
     for page in PAGES:
         text = page.read_text()
-        blocks += [code for code in re.findall(r"^```python\n(.*?)^```", text, re.M | re.S) if is_python(code)]
-        prose = re.sub(r"^```.*?^```|^## C\+\+\n.*?^## ", "", text, flags=re.M | re.S)
+        prose = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
         for code in re.findall(r"`([^`\n]+)`", prose):
             is_of_python = re.match(r"(vkh|solver|r|d|m|light)\.[a-z]\w*([.(]|$)|(Solver|distance)\([^)]", code)
             if is_of_python and not code.endswith((".cpp", ".h")):
@@ -273,7 +265,7 @@ class Types(unittest.TestCase):
     def test_every_documented_call_passes_mypy(self):
         """The code blocks of the pages, and the calls that stand in their sentences."""
         blocks, calls = documented()
-        self.assertGreater(len(blocks), 12)
+        self.assertGreaterEqual(len(blocks), 12)
         self.assertGreater(len(calls), 30)
         files = {f"block_{i}.py": block for i, block in enumerate(blocks)}
         files["distributed.pyi"] = "from typing import Any\ndef Client(*, scheduler_file: str) -> Any: ...\n"
