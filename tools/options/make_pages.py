@@ -153,7 +153,7 @@ def cell(text):
 
 def reference(table):
     lines = ["# Options", "", f"Every option of every command, its list column and its Python keyword. {MADE[:-1]} from",
-             "`host/answer/options_table.cpp`; `vkhausdorff COMMAND --help-all` says what each does.", ""]
+             "`host/answer/options_table.cpp`; `vkhausdorff COMMAND --help-all` says what each does, [limits](limits.md#lengths) what a LENGTH is.", ""]
     groups = dict.fromkeys(option["group"] for option in table["options"])
     for group in groups:
         lines += [f"## {group}", "", "| option | of | column | Python | keeps a result apart |", "|---|---|---|---|---|"]
