@@ -31,7 +31,7 @@ std::vector<Command> commands_of_a_pair() {
            .bit = kMetrics,
            .does = "Figures of two mesh files by the names that papers use, both directions",
            .positionals = pair,
-           .codes = "0 each figure is as narrow as it is to be; 2 usage; 3 a figure is not "
+           .codes = "0 each figure is as narrow as asked; 2 usage; 3 a figure is not "
                     "(intervals are true); 4 bad input, or a mesh without area; 5 device or "
                     "driver; " +
                     kOutputCode + "."}};
