@@ -81,7 +81,7 @@ def run(command, folder):
             if not word.startswith("part-") or "batch" in command:
                 (folder / word).unlink(missing_ok=True)  # results of a command before
     environment = {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}"}
-    return subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=120, env=environment)
+    return subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True, timeout=600, env=environment)
 
 
 class Pages(unittest.TestCase):
