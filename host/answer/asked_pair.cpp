@@ -52,15 +52,20 @@ void AskedPair::take_meshes() {
   answer_ = std::move(known);
 }
 
+// From the search on they stay as they are.
+AskedMeshes AskedPair::meshes(const PreparedMesh* b) {
+  return {*a_, *b_.mesh, b, question_.asks_for_survey() ? &kept_ : nullptr};
+}
+
 void AskedPair::solve(std::span<Solver* const> solvers, const Observer& observer,
                       const PreparedMesh* b) {
-  vkh::solve(question_, solvers, {*a_, *b_.mesh, b}, observer, answer_);
+  vkh::solve(question_, solvers, meshes(b), observer, answer_);
 }
 
 void AskedPair::take(StreamResult&& result) { take_reports(question_, std::move(result), answer_); }
 
 void AskedPair::finish(Solver& solver, const Observer& observer, const PreparedMesh* b) {
-  vkh::finish(question_, solver, {*a_, *b_.mesh, b}, observer, answer_);
+  vkh::finish(question_, solver, meshes(b), observer, answer_);
 }
 
 }  // namespace vkh

@@ -2,6 +2,7 @@
 // command line, a batch, C++ and Python.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 
@@ -46,12 +47,14 @@ class AskedPair {
  private:
   ReadMesh& movable_a();
   void take_meshes();
+  AskedMeshes meshes(const PreparedMesh* b);
 
   Question question_;
   Answer answer_;
   std::shared_ptr<const ReadMesh> a_;
   std::shared_ptr<ReadMesh> own_a_;  // A, if nobody else has it
   ShapedMesh b_;
+  std::array<KeptPair, 2> kept_;
 };
 
 }  // namespace vkh

@@ -56,7 +56,7 @@ double survey_time(const Finishing& at, size_t left) {
 struct Side {
   const Mesh& from;
   const Mesh& to;
-  const PreparedMesh* prepared;
+  PairView view;
   const char* name;
   bool back;
   Report& report;
@@ -201,10 +201,6 @@ void survey_or_note(const Finishing& at, const std::string& name, SurveyEnd& end
   }
 }
 
-PairView view_of(const Side& side) {
-  return {.a = side.from, .b = side.to, .prepared = side.prepared};
-}
-
 SolveOptions survey_run(const Finishing& at) {
   SolveOptions run = at.options;
   run.progress = [&at](const Progress&) { return at.observer.is_to_go_on(); };
@@ -286,7 +282,7 @@ void survey_side(const Finishing& at, const Side& side, size_t left, SurveyResul
   const SurveyOptions options = options_for(at, side, left);
   survey_or_note(at, side.name, result.ended, [&] {
     if (at.observer.is_to_go_on())
-      hold_pair(at.solver, view_of(side), survey_run(at), survey_with(options, result));
+      hold_pair(at.solver, side.view, survey_run(at), survey_with(options, result));
   });
   take_survey(at, side, options, result);
 }
@@ -303,7 +299,7 @@ class Measuring {
   void run() {
     SurveyEnd ended = SurveyEnd::kCancelled;
     survey_or_note(at_, "both meshes", ended, [&] {
-      const std::array<PairView, 2> views{view_of(sides_[0]), view_of(sides_[1])};
+      const std::array<PairView, 2> views{sides_[0].view, sides_[1].view};
       if (at_.observer.is_to_go_on())
         hold_pairs(at_.solver, views, survey_run(at_), [&](std::span<const SurveyedPair> pairs) {
           measure(pairs);
@@ -424,8 +420,9 @@ double Observer::time_left_s() const {
 void finish(const Question& question, Solver& solver, const AskedMeshes& meshes,
             const Observer& observer, Answer& answer) {
   const Finishing at{question, solver, observer, solve_options(question, answer), answer};
-  std::vector<Side> sides{{meshes.a, meshes.b, meshes.prepared, "A", false, answer.a_to_b}};
-  if (answer.b_to_a) sides.push_back({meshes.b, meshes.a, nullptr, "B", true, *answer.b_to_a});
+  std::vector<Side> sides{{meshes.a, meshes.b, meshes.view(), "A", false, answer.a_to_b}};
+  if (answer.b_to_a)
+    sides.push_back({meshes.b, meshes.a, meshes.view(true), "B", true, *answer.b_to_a});
   if (question.metrics && sides.size() == 2) {
     Measuring(at, sides).run();
   } else if (question.asks_for_survey()) {

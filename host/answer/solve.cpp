@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "host/answer/face_limits.h"
 #include "host/answer/steps.h"
@@ -83,9 +84,16 @@ void note_left_out(std::span<Solver* const> solvers, Answer& answer) {
 
 Report distance_of(std::span<Solver* const> solvers, const AskedMeshes& meshes,
                    const SolveOptions& options) {
-  if (meshes.prepared != nullptr)
-    return solvers.front()->distance(meshes.a, *meshes.prepared, options);
-  return distance_over(solvers, meshes.a, meshes.b, options);
+  if (solvers.size() != 1) return distance_over(solvers, meshes.a, meshes.b, options);
+  const PairView view = meshes.view();
+  return std::move(solvers.front()->distances({&view, 1}, options)[0]);
+}
+
+SymmetricReport symmetric_of(Solver& solver, const AskedMeshes& meshes,
+                             const SolveOptions& options) {
+  PairView view = meshes.view();
+  view.prepared = nullptr;
+  return std::move(solver.symmetrics({&view, 1}, options)[0]);
 }
 
 Report distance_of_one_part(std::span<Solver* const> solvers, const AskedMeshes& meshes,
@@ -120,7 +128,7 @@ void find_worst(const Question& question, std::span<Solver* const> solvers,
   options.tolerance = std::max(answer.a_to_b.tolerance, 1e-3 * interval_of(answer).lower);
   options.tolerance_is_absolute = true;
   if (!answer.b_to_a) return add_search(answer.a_to_b, distance_of(solvers, meshes, options));
-  const SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options);
+  const SymmetricReport both = symmetric_of(*solvers.front(), meshes, options);
   add_search(answer.a_to_b, both.a_to_b);
   add_search(*answer.b_to_a, both.b_to_a);
 }
@@ -149,7 +157,7 @@ void solve(const Question& question, std::span<Solver* const> solvers, const Ask
     if (solvers.size() > 1)
       throw UsageError(question.option("symmetric") +
                        ": over several devices ask for each direction by itself");
-    SymmetricReport both = solvers.front()->symmetric(meshes.a, meshes.b, options());
+    SymmetricReport both = symmetric_of(*solvers.front(), meshes, options());
     answer.a_to_b = std::move(both.a_to_b);
     answer.b_to_a = std::move(both.b_to_a);
   } else {

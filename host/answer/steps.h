@@ -31,10 +31,24 @@ struct Observer {
 };
 
 /// Two meshes that the caller keeps. `prepared`: B on the device of the one solver, or null.
+/// `kept`: for h(a, b) and h(b, a), if steps that follow should find both as the solver has laid
+/// them.
 struct AskedMeshes {
   const Mesh& a;
   const Mesh& b;
   const PreparedMesh* prepared = nullptr;
+  std::array<KeptPair, 2>* kept = nullptr;
+
+  /// h(a, b), or h(b, a).
+  PairView view(bool back = false) const {
+    KeptPair* const own = kept != nullptr ? &(*kept)[back ? 1 : 0] : nullptr;
+    if (back) return {.a = b, .b = a, .kept = own};
+    return {.a = a,
+            .b = b,
+            .prepared = prepared,
+            .kept = own,
+            .kept_back = kept != nullptr ? &(*kept)[1] : nullptr};
+  }
 };
 
 /// A mesh to move, and the one to lay it on. `prepared`: B on the device of the solver, or null.

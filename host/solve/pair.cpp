@@ -105,7 +105,8 @@ RunInput input_for(const Pair& pair, uint32_t switches, double tolerance_given) 
           .stage_times = options.engine.stage_times,
           .coverage = options.engine.coverage,
           .advanced = {},
-          .known_since = known_since(pair)};
+          .known_since = known_since(pair),
+          .kept = pair.kept};
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include "vkhausdorff/frame.h"
 #include "vkhausdorff/report.h"
 #include "vkhausdorff/solve_options.h"
+#include "vkhausdorff/solver.h"
 
 namespace vkh {
 
@@ -45,6 +46,7 @@ struct Pair {
   SolveOptions options = {};
   std::function<double()> known_since = {};  ///< distance_since()
   size_t number = 0;                         // Progress::pair
+  KeptPair kept = {};                        // where later calls may be of the pair
 };
 
 /// Converts the device's certified bounds of the pair to the files' units.

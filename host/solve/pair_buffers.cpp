@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "host/base/parallel.h"
 #include "host/gpu/vulkan_api.h"
@@ -235,11 +236,15 @@ void PairBuffers::set_problem(const RunInput& in, VkDeviceSize bytes, bool may_g
 
 void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
                        MemoryBudget budget) {
-  is_resident_ = in.resident != nullptr;
-  const MeshData b = is_resident_ ? MeshData{} : in.b;
+  is_laid_ = has(in) && laid_.context == context;
+  if (is_laid_ && in.takes_begun) return;
+  laid_ = {};
+  taken_ = {in.kept, in.resident, context};
+  has_b_ = is_laid_ || in.resident != nullptr;
+  const MeshData b = in.resident != nullptr ? MeshData{} : in.b;
   const VkhWorkspaceRequirements workspace = workspace_for(context, counts_of(*in.a.mesh));
   VkhHierarchyRequirements hierarchy{};
-  if (!is_resident_) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
+  if (in.resident == nullptr) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
   place_meshes(in.a, b, budget.policy);
   take_buffer(report_, device_, kReportBytes, budget.policy, pool_);
   grow(readback_, device_, kReportBytes,
@@ -248,7 +253,7 @@ void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
   const VkDeviceSize bytes = take_workspace(workspace, hierarchy.scratchSize, in, budget);
   place_b(hierarchy, in, budget.policy);
   set_problem(in, bytes, bytes < workspace.maximum);
-  write_meshes(in.a, b);
+  if (!is_laid_) write_meshes(in.a, b);
   out.workspace_bytes = bytes;
   out.host_memory_bytes = host_bytes(in);
 }
@@ -311,7 +316,8 @@ ResidentMesh PairBuffers::take_resident(VkhContext context, const MeshData& b,
   take_buffer(workspace_, device_, needed.scratchSize, policy);
   write_meshes({}, b);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
-  is_resident_ = false;
+  taken_ = laid_ = {};
+  is_laid_ = has_b_ = false;
   return resident;
 }
 
@@ -324,7 +330,7 @@ void PairBuffers::place_areas(const RunInput& in, RunOutput& out, MemoryPolicy p
 }
 
 void PairBuffers::record_upload(VkCommandBuffer commands) const {
-  if (meshes_.mapped() != nullptr) return;
+  if (is_laid_ || meshes_.mapped() != nullptr) return;
   const VkBufferCopy copy{0, 0, uploaded_bytes_};
   device_.vk().CmdCopyBuffer(commands, staging_.handle(), meshes_.handle(), 1, &copy);
 }
@@ -337,7 +343,8 @@ void PairBuffers::record_readback(VkCommandBuffer commands, const RunOutput& out
   device_.vk().CmdCopyBuffer(commands, areas_.handle(), areas_readback_.handle(), 1, &areas);
 }
 
-void PairBuffers::read(RunOutput& out) const {
+void PairBuffers::read(RunOutput& out) {
+  if (taken_.context != nullptr) laid_ = std::exchange(taken_, {});
   std::memcpy(&out.report, readback_.mapped(), sizeof(out.report));
   std::memcpy(&out.statistics, readback_.mapped() + kStatisticsOffset, sizeof(out.statistics));
   if (!out.areas.empty())

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "engine/vkhausdorff.h"
@@ -69,6 +70,9 @@ struct RunInput {
   /// Asked before each submission but the first, which is then short: the value of
   /// `options.knownLower` from there on, if it is larger. Empty: it stays.
   std::function<float()> known_since;
+  /// The pair, if later runs may be of it; null: its buffers are the next one's.
+  std::shared_ptr<const FramedPair> kept;
+  bool takes_begun = false;  ///< a run of it that lies there will do, however it ended
 };
 
 struct StageTime {
@@ -93,24 +97,32 @@ class PairBuffers {
   /// Takes memory from the pool, if there is one, which then outlives it.
   PairBuffers(const Device& device, MemoryPool* pool) : device_(device), pool_(pool) {}
 
-  /// Takes the pair: allocates its buffers and, if they are mapped, writes its meshes. Throws
-  /// MemoryError if there is no room for it, DeviceError if the device cannot have it.
+  /// Takes the pair: allocates its buffers and, if they are mapped, writes its meshes, unless it
+  /// lies there. Throws MemoryError if there is no room for it, DeviceError if the device cannot
+  /// have it.
   void take(VkhContext context, const RunInput& input, RunOutput& output, MemoryBudget budget);
   /// Allocates and fills B's buffers, without A, and scratch for the build; returns the memory that
   /// its BVH will be built in.
   ResidentMesh take_resident(VkhContext context, const MeshData& b, MemoryPolicy policy);
 
   /// The problem as the library gets it. `mesh_b` and `scratch` are for building B's BVH; null if B
-  /// is resident.
+  /// is there.
   VkhProblem& problem() { return problem_; }
-  const VkhMesh* mesh_b() const { return is_resident_ ? nullptr : &mesh_b_; }
+  const VkhMesh* mesh_b() const { return has_b_ ? nullptr : &mesh_b_; }
   const VkhMemory* scratch() const { return &scratch_; }
   VkBuffer report() const { return report_.handle(); }
   /// The statistics' place behind the report, in the same buffer.
   static constexpr VkDeviceSize kStatisticsOffset = 128;
   static_assert(sizeof(VkhReport) <= kStatisticsOffset);
+  /// Whether a run that was read lies there, of the pair that was taken.
+  bool has_run() const { return laid_.context != nullptr; }
+  bool has(const RunInput& input) const {
+    return input.kept != nullptr && input.kept == laid_.pair && input.resident == laid_.resident;
+  }
+  /// Whether some caller keeps the pair that lies there.
+  bool is_kept() const { return laid_.pair.use_count() > 1; }
 
-  /// Copies the meshes to where the device reads them, unless they were written there; the caller
+  /// Copies the meshes to where the device reads them, unless they are there; the caller
   /// records a barrier to compute shaders.
   void record_upload(VkCommandBuffer commands) const;
   /// Handles a run that pauses for want of room: takes memory for it, or lets it go on with what
@@ -130,7 +142,7 @@ class PairBuffers {
   VkhClosestQuery take_points(const PointBatch& batch);
   void read_closest(const PointBatch& batch) const;
   /// Reads the results of the last submission.
-  void read(RunOutput& output) const;
+  void read(RunOutput& output);
 
  private:
   void take_meshes(VkDeviceSize bytes, MemoryPolicy policy);
@@ -159,7 +171,13 @@ class PairBuffers {
   // empty: none is recorded.
   std::optional<VkhMemory> next_;
   VkDeviceSize uploaded_bytes_ = 0;
-  bool is_resident_ = false;
+  struct Laid {
+    std::shared_ptr<const FramedPair> pair;
+    const ResidentMesh* resident = nullptr;  // B, unless it lies there, too
+    VkhContext context = nullptr;            // whose run it is
+  };
+  Laid taken_, laid_;  // `taken_` lies there once its run was read
+  bool is_laid_ = false, has_b_ = false;
   VkhMesh mesh_b_{};
   VkhProblem problem_{};
   VkhMemory scratch_{};

@@ -17,7 +17,7 @@ namespace vkh {
 
 /// A pair on the device.
 struct HeldPair {
-  VkhReport report;  ///< after one wave
+  VkhReport report;  ///< after one wave, or more
   BoundCells bound;
   std::unique_ptr<SurveyCells> cells;
 };
@@ -33,9 +33,9 @@ class Runner {
   /// switches, `multiwave` and `stage_times`. Several runs have one stage, "solve", for all of them
   /// and their BVHs.
   std::vector<RunOutput> run(std::span<const RunInput> inputs);
-  /// Uploads the pairs, builds what is not resident, makes each run's first wave, and calls `use`
-  /// while they lie there. They have the same switches, VKH_CONTEXT_CELLS among them. Does not call
-  /// it if RunInput::advanced of one says no.
+  /// Uploads the pairs, builds what is not resident, makes each run's first wave, unless a run that
+  /// will do lies there, and calls `use` while they lie there. They have the same switches,
+  /// VKH_CONTEXT_CELLS among them. Does not call it if RunInput::advanced of one says no.
   void hold(std::span<const RunInput> inputs, const UseHeld& use);
   /// Finds the faces of B that are closest to points; `mesh` is B.
   void find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBatch& batch);
@@ -44,6 +44,7 @@ class Runner {
   struct Submission;
   VkhContext context_for(uint32_t switches, std::span<const RunInput> inputs,
                          ContextUse use = ContextUse::kRun);
+  void arrange(std::span<const RunInput> inputs);
   void take_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs);
   void buffers(size_t count, const std::function<void(MemoryPolicy)>& take);
   VkCommandBuffer begin();

@@ -258,12 +258,17 @@ void Solver::make_ready(const EngineOptions& options) {
 
 namespace {
 
+// The frame that the pair was given, or that an earlier call left.
+const FramedPair* known_frame(const PairView& m) {
+  return m.kept != nullptr && *m.kept != nullptr ? m.kept->get() : m.framed;
+}
+
 // Checks each mesh once: many pairs may have one B. A prepared one was checked when it was
 // prepared, and those of a framed pair before.
 void check_meshes(std::span<const PairView> pairs) {
   std::set<const Mesh*> meshes;
   for (const PairView& pair : pairs) {
-    if (pair.framed != nullptr) continue;
+    if (known_frame(pair) != nullptr) continue;
     meshes.insert(&pair.a);
     if (pair.prepared == nullptr || &pair.b != &pair.prepared->mesh()) meshes.insert(&pair.b);
   }
@@ -272,42 +277,47 @@ void check_meshes(std::span<const PairView> pairs) {
 
 // A caller's pair as it is stored, in a frame around both or in that of a prepared B.
 struct Framed {
-  FramedPair pair = {};
-  double displacement_b = 0;
-  bool has_low_b = false;
+  KeptPair pair;
   const KeptMesh* kept = nullptr;  // B's, if it is prepared and its frame serves A
 };
 
+// Makes the frame unless it is known, and leaves it for later calls.
+KeptPair shared_frame(const PairView& m, const std::function<FramedPair()>& make) {
+  if (m.kept != nullptr && *m.kept != nullptr) return *m.kept;
+  const auto made = std::make_shared<const FramedPair>(m.framed != nullptr ? *m.framed : make());
+  if (m.kept != nullptr) *m.kept = made;
+  return made;
+}
+
 Framed framed_alone(const PairView& m) {
-  Framed f{.pair = m.framed != nullptr ? *m.framed : frame_pair(m.a, m.b)};
-  f.displacement_b = f.pair.b.displacement;
-  f.has_low_b = f.pair.b.has_low;
-  return f;
+  return {.pair = shared_frame(m, [&] { return frame_pair(m.a, m.b); })};
 }
 
 // Nothing if B's frame does not serve A. A pair that was framed before is in that frame if it does.
 std::optional<Framed> framed_by(const KeptMesh& kept, const PairView& m) {
-  const Box box_a = m.framed != nullptr ? m.framed->box_a : bounding_box(m.a);
-  if (!serves(kept.frame, kept.box, box_a)) return std::nullopt;
-  Framed f{.displacement_b = kept.displacement, .has_low_b = kept.has_low, .kept = &kept};
-  f.pair.frame = kept.frame;
-  f.pair.a = m.framed != nullptr ? m.framed->a : store_in(kept.frame, m.a);
-  f.pair.box_a = box_a;
-  f.pair.box_b = kept.box;
-  return f;
+  const FramedPair* const known = known_frame(m);
+  const Box box_a = known != nullptr ? known->box_a : bounding_box(m.a);
+  const bool is_in_it = known == nullptr || known->frame == kept.frame;
+  if (!is_in_it || !serves(kept.frame, kept.box, box_a)) return std::nullopt;
+  const auto make = [&]() -> FramedPair {
+    const StoragePlan b{kept.frame, kept.has_low, kept.displacement};
+    return {kept.frame, store_in(kept.frame, m.a), b, box_a, kept.box};
+  };
+  return Framed{.pair = shared_frame(m, make), .kept = &kept};
 }
 
 Pair pair_of(const PairView& view, const Framed& f) {
   return {.a = view.a,
           .b = f.kept != nullptr ? f.kept->mesh : view.b,
-          .frame = f.pair.frame,
-          .stored_a = f.pair.a,
-          .stored_b = f.kept != nullptr ? nullptr : &f.pair.b,
+          .frame = f.pair->frame,
+          .stored_a = f.pair->a,
+          .stored_b = f.kept != nullptr ? nullptr : &f.pair->b,
           .resident = f.kept != nullptr ? &f.kept->resident : nullptr,
-          .displacement = add_up(f.pair.a.displacement, f.displacement_b),
-          .has_low = f.pair.a.has_low || f.has_low_b,
-          .box_a = f.pair.box_a,
-          .joint = join(f.pair.box_a, f.pair.box_b)};
+          .displacement = add_up(f.pair->a.displacement, f.pair->b.displacement),
+          .has_low = f.pair->a.has_low || f.pair->b.has_low,
+          .box_a = f.pair->box_a,
+          .joint = join(f.pair->box_a, f.pair->box_b),
+          .kept = view.kept != nullptr ? f.pair : nullptr};
 }
 
 }  // namespace
@@ -316,7 +326,8 @@ Pair pair_of(const PairView& view, const Framed& f) {
 std::vector<Framed> Solver::Impl::framed(std::span<const PairView> views) const {
   std::vector<Framed> all(views.size());
   uint64_t bytes = 0;
-  for (const PairView& m : views) bytes += m.framed ? 0 : mesh_bytes(m.a) + mesh_bytes(m.b);
+  for (const PairView& m : views)
+    bytes += known_frame(m) != nullptr ? 0 : mesh_bytes(m.a) + mesh_bytes(m.b);
   const auto frame = [&](size_t i) {
     const PairView& m = views[i];
     std::optional<Framed> served;
@@ -374,6 +385,7 @@ void Solver::Impl::hold(std::span<const PairView> views, const std::vector<Solve
     watches.push_back({.pair = pair, .diagonal_a = diagonal(pair.box_a), .start = Clock::now()});
     inputs.push_back(input_for(pair, switches, tolerance_of(pair)));
     inputs.back().advanced = [&watch = watches.back()](const VkhReport& r) { return watch(r); };
+    inputs.back().takes_begun = true;
   }
   const bool on_cpu = device.description().type == "cpu";
   runner.hold(inputs, [&](std::span<const HeldPair> held) {
@@ -498,9 +510,10 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
       continue;
     }
     sought.push_back(i);
-    back.push_back({.a = b, .b = a});
-    if (pairs[i].framed != nullptr && pairs[i].prepared == nullptr) {
-      framed.push_back(pairs[i].framed->reversed());
+    back.push_back({.a = b, .b = a, .kept = pairs[i].kept_back});
+    const FramedPair* const known = known_frame(pairs[i]);
+    if (known != nullptr && pairs[i].prepared == nullptr) {
+      framed.push_back(known->reversed());
       back.back().framed = &framed.back();
     }
     of_back.push_back(options_back(heard[i], both[i].a_to_b, elapsed_s));

@@ -35,6 +35,7 @@ struct FileInterval {
 struct Frame {
   DVec3 centre{};
   int exponent = 0;
+  bool operator==(const Frame&) const = default;
 
   double to_frame(double length) const;
   /// The largest |frame coordinate| in a box, to within a rounding.

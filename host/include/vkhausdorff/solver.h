@@ -38,6 +38,10 @@ class PreparedMesh {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Two meshes that stay as they are from call to call, as a Solver has framed them; null before the
+/// first call. Where no other run came between, they still lie on its device.
+using KeptPair = std::shared_ptr<const FramedPair>;
+
 /// Two meshes that the caller keeps, and what is asked about them.
 struct PairView {
   const Mesh& a;
@@ -49,6 +53,9 @@ struct PairView {
   /// made before, on any thread, for two meshes that check_mesh() let pass; null: the call checks
   /// and frames them.
   const FramedPair* framed = nullptr;
+  /// Of the caller, for these two meshes alone; null: the call leaves nothing to find.
+  KeptPair* kept = nullptr;
+  KeptPair* kept_back = nullptr;  ///< of h(b, a), for symmetrics()
 };
 
 /// The processor alone, in doubles, in place of a Vulkan device. It needs no loader and no driver.
