@@ -9,6 +9,8 @@ namespace {
 
 constexpr double kLikeNought = 2 * CellMap::kUnresolved;
 
+double longer_end(const MapBar& bar) { return std::max(bar.high, -bar.low); }
+
 }  // namespace
 
 double MapBar::share_of(double distance) const {
@@ -39,11 +41,11 @@ bool is_without_side(const CellMap& map, const MapBar& bar, const MapCell& cell)
   if (!map.has_sides || cell.side != SurfaceSide::kUnsigned) return false;
   const float most = std::max({cell.estimate[0], cell.estimate[1], cell.estimate[2]});
   const double reach = static_cast<double>(most) + static_cast<double>(cell.width);
-  return static_cast<double>(most) > map.least && reach * map.unit > kLikeNought * bar.high;
+  return static_cast<double>(most) > map.least && reach * map.unit > kLikeNought * longer_end(bar);
 }
 
 bool is_unresolved(const CellMap& map, const MapBar& bar, const MapCell& cell) {
-  return !map.is_left_out(cell) && map.is_unresolved(cell, std::max(bar.high, -bar.low));
+  return !map.is_left_out(cell) && map.is_unresolved(cell, longer_end(bar));
 }
 
 double distance_at(const CellMap& map, const MapCell& cell, size_t corner) {

@@ -174,6 +174,10 @@ TEST_CASE(
   drawn.picture.sided = SidedLimits{{0.5, 0.5}, {0.2, 0.2}};
   const MapScale sided(drawn.picture, drawn.options);
   CHECK(counts_of(drawn.map, sided).within < 0.6);  // 0.3 may be under B, and beyond its limit
+  for (MapCell& cell : drawn.map.cells) cell.width = 0.01f;
+  drawn.picture.sided = SidedLimits{{0.2, 0.2}, {0.5, 0.5}};
+  const MapScale longer(drawn.picture, drawn.options);
+  CHECK(counts_of(drawn.map, longer).no_side < 0.6);  // 0.06 is within a tenth of its longer end
 }
 
 TEST_CASE("limits that differ by side end the bar on either side") {
