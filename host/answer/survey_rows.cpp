@@ -249,10 +249,22 @@ namespace {
 
 constexpr double kShownPercent = 0.01;
 
+// Of a share nothing is known while it may be none and all.
+bool is_known(const AnswerFigure& figure) {
+  const Enclosure& e = figure.value;
+  return figure.power == 0 ? e.lower > 0 || e.upper < 1 : std::isfinite(e.upper);
+}
+
 // Three digits, or those that the interval leaves.
 std::string likely_text(const Enclosure& e, double least_gap) {
-  if (!std::isfinite(e.upper)) return "not known";
   return likely(e, std::max(e.upper - e.lower, least_gap));
+}
+
+std::string likely_text(const AnswerFigure& figure, const std::string& unit) {
+  if (!is_known(figure)) return "not known";
+  if (figure.kind == FigureKind::kMetricShare)
+    return likely_text(in_percent(figure.value), kShownPercent) + " %";
+  return with_unit(likely_text(figure.value, 1e-3 * figure.value.lower), unit);
 }
 
 std::string goal_text(const AnswerFigure& figure) {
@@ -262,16 +274,14 @@ std::string goal_text(const AnswerFigure& figure) {
 }
 
 std::string metric_text(const AnswerFigure& metric, const std::string& unit) {
-  const Enclosure& e = metric.value;
-  if (!std::isfinite(e.upper)) return "not known";
-  return figure(e, unit) + goal_text(metric);
+  if (!is_known(metric)) return "not known";
+  return figure(metric.value, unit) + goal_text(metric);
 }
 
 // `of`: what the share is of, before any remark.
 std::string share_metric_text(const AnswerFigure& share, const std::string& of) {
-  const Enclosure percent = in_percent(share.value);
-  const std::string likely = likely_text(percent, kShownPercent) + " %";
-  if (percent.lower == percent.upper) return likely + of;
+  const std::string likely = likely_text(share, "");
+  if (!is_known(share) || share.value.lower == share.value.upper) return likely + of;
   return likely + ", in " + share_text(share.value) + of + goal_text(share);
 }
 
@@ -301,12 +311,10 @@ std::string metrics_in_words(const Answer& answer) {
   for (const AnswerFigure& figure : figures_of(answer)) {
     if (figure.kind < FigureKind::kMetric) continue;
     if (m.figures.empty() ? !is_told_first(figure) : !m.asks_for(asked_name(figure))) continue;
-    const Enclosure& e = figure.value;
-    text += (text.empty() ? "" : ", ") + figure.name + " ";
-    text += figure.kind == FigureKind::kMetric
-                ? with_unit(likely_text(e, 1e-3 * e.lower), unit_of(answer.unit, figure.power))
-                : likely_text(in_percent(e), kShownPercent) + " % within " +
-                      distance_text(answer, figure.at);
+    text += (text.empty() ? "" : ", ") + figure.name + " " +
+            likely_text(figure, unit_of(answer.unit, figure.power));
+    if (figure.kind == FigureKind::kMetricShare)
+      text += " within " + distance_text(answer, figure.at);
   }
   return text + (m.is_met() ? "" : "; not all are as narrow as asked");
 }

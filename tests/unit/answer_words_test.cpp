@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -196,6 +197,24 @@ TEST_CASE("a share's remark follows its distance") {
   CHECK(rows[0].text ==
         "91.6 %, in [69.7283, 92.5234] % within 0.05 mm; wider than asked: more "
         "--effort narrows it");
+}
+
+TEST_CASE("a figure that is not known reads as no value") {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Answer answer = gate(0.2, 0.3);
+  answer.max.reset();
+  answer.b_to_a = answer.a_to_b;
+  Metrics& m = answer.metrics.emplace();
+  m.hausdorff.value = {0.25, 0.25};
+  m.hd_p.value = m.assd.value = m.chamfer_l1.value = {0, kInfinity};
+  MetricsWithin& at = m.within.emplace_back();
+  at.distance = 0.05;
+  at.f1.value = {0, 1};
+  CHECK(in_words(answer) ==
+        "hausdorff 0.25 mm, hd95 not known, assd not known, chamfer_l1 not known, f1 not known "
+        "within 0.05 mm; not all are as narrow as asked");
+  m.figures = {"f1"};
+  CHECK(metrics_rows(answer)[0].text == "not known within 0.05 mm");
 }
 
 TEST_CASE("limits of sides are conditional on a B that is not inside out") {
