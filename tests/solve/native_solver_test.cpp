@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
 #include "tests/shapes/hard_pairs.h"
 #include "tests/shapes/shapes.h"
+#include "tests/support/sanitized.h"
 #include "vkhausdorff/asking.h"
 #include "vkhausdorff/error.h"
 #include "vkhausdorff/face_gate.h"
@@ -181,7 +183,7 @@ TEST_CASE("a native stream, and a question of C++") {
 
 // About all of a surface is as far as its farthest point, and the bound as tight as doubles make
 // it: halves of a part come so close to it that none is proven before millions are.
-TEST_CASE("a native bound of many points that are equally far takes what the tolerance leaves") {
+TEST_CASE("a native bound of points equally far takes what tolerance and limit leave") {
   const std::vector<std::string> names = family_names();
   const auto offset = std::find(names.begin(), names.end(), "offset") - names.begin();
   const HardPair hard = hard_pair(static_cast<size_t>(offset), 67 * 1000003 + 83);
@@ -196,6 +198,15 @@ TEST_CASE("a native bound of many points that are equally far takes what the tol
   CHECK(proof.unproven == 0);
   CHECK(proof.upper >= r.upper);
   CHECK(proof.upper - r.lower <= r.tolerance);
+
+  REQUIRE(proof.upper > r.upper);
+  if (kIsSanitized) return;  // the same code, with less to take
+  Report gated = r;
+  gated.limit.within = gated.limit.beyond = std::midpoint(r.upper, proof.upper);
+  const Proof within =
+      prove(solver, {.a = a, .b = b, .report = gated, .options = options, .goes_on = goes_on});
+  CHECK(within.unproven == 0);
+  CHECK(within.upper <= gated.limit.within);
 }
 
 // The bounds of a run are as tight as doubles allow. Were the prover less so, it would halve parts
