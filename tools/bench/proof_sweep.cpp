@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <map>
 #include <random>
 
@@ -26,20 +27,13 @@ struct Totals {
 
 using Count = unsigned long long;
 
-/// Binary PLY of doubles: read back as it is.
-void write_ply(const std::filesystem::path& path, const Mesh& mesh) {
-  std::ofstream out(path, std::ios::binary);
-  out << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size()
-      << "\nproperty double x\nproperty double y\nproperty double z\nelement face "
-      << mesh.faces.size() << "\nproperty list uchar uint vertex_indices\nend_header\n";
-  const auto put = [&](const auto& value) {
-    out.write(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  for (const glm::dvec3& v : mesh.vertices) put(v);
-  for (const glm::uvec3& f : mesh.faces) {
-    put(uint8_t{3});
-    put(f);
-  }
+/// OFF, which every checker reads, with as many digits as a double needs: read back as it is.
+void write_off(const std::filesystem::path& path, const Mesh& mesh) {
+  std::ofstream out(path);
+  out << std::setprecision(17) << "OFF\n"
+      << mesh.vertices.size() << ' ' << mesh.faces.size() << " 0\n";
+  for (const glm::dvec3& v : mesh.vertices) out << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  for (const glm::uvec3& f : mesh.faces) out << "3 " << f.x << ' ' << f.y << ' ' << f.z << '\n';
 }
 
 /// The options of the run of pair i.
@@ -95,29 +89,31 @@ class Sweep {
       : swept_(swept),
         solver_(swept.solver()),
         args_(args),
-        files_{folder / "a.ply", folder / "b.ply", folder / "ab.vhc"},
-        command_(args.check + " '" + files_.certificate.string() + "' '" + files_.a.string() +
-                 "' '" + files_.b.string() + "' >'" + (folder / "said").string() + "' 2>&1") {}
+        files_{folder / "a.off", folder / "b.off", folder / "ab.vhc"},
+        given_(" '" + files_.certificate.string() + "' '" + files_.a.string() + "' '" +
+               files_.b.string() + "' >'" + (folder / "said").string() + "' 2>&1") {}
 
   void pair(uint64_t i) {
     const size_t families = family_names().size();
     const HardPair hard = hard_pair(i % families, args_.seed * 1000003 + i);
     const Way way = way_of(i, hard, swept_.is_native());
     const Mesh &a = hard.pair.a, &b = hard.pair.b;
-    write_ply(files_.a, a);
-    write_ply(files_.b, b);
+    write_off(files_.a, a);
+    write_off(files_.b, b);
     const std::string certificate =
         way.symmetric ? of_both(a, b, way) : of_one(a, b, solver_.distance(a, b, way.options), way);
     if (certificate.empty()) return;
     std::ofstream(files_.certificate, std::ios::binary) << certificate;
-    const int code = std::system(command_.c_str());
     ++totals_.certificates;
     totals_.bytes += certificate.size();
-    if (code == 0) return;
-    ++totals_.refused;
-    std::printf("NOT ACCEPTED pair %llu (%s, %s), code %d\n", static_cast<Count>(i),
-                family_names()[i % families].c_str(), way.symmetric ? "both ways" : "one way",
-                code);
+    for (const std::string& checker : args_.checks) {
+      const int code = std::system((checker + given_).c_str());
+      if (code == 0) continue;
+      ++totals_.refused;
+      std::printf("NOT ACCEPTED pair %llu (%s, %s), %s, code %d\n", static_cast<Count>(i),
+                  family_names()[i % families].c_str(), way.symmetric ? "both ways" : "one way",
+                  checker.c_str(), code);
+    }
   }
 
   const Totals& totals() const { return totals_; }
@@ -158,7 +154,7 @@ class Sweep {
   Solver& solver_;
   const SweepOptions& args_;
   Files files_;
-  std::string command_;
+  std::string given_;  ///< to a checker: the files, and where its words go
   Totals totals_;
 };
 

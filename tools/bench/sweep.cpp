@@ -5,8 +5,8 @@
 //   [--spoil X]
 //
 // distances: [--family NAME] [--tol T] [--threads N] [--gates] [--closes] [--least-closed N]
-// cells: [--cells N]. proofs: --check PROGRAM. sides: A B [--effort N] [--cells N] [--samples N]
-// [--head]
+// cells: [--cells N]. proofs: --check PROGRAM, once for each. sides: A B [--effort N] [--cells N]
+// [--samples N] [--head]
 //
 // Exit code 1 for any violation, 2 where it could not be run.
 #include "tools/bench/sweep.h"
@@ -58,7 +58,7 @@ int run(int argc, char** argv) {
   app.add_flag("--closes", options.closes, "distances: close what the reference closes");
   CLI::Option* cells =
       app.add_option("--cells", options.cells, "cells, sides: random cells of each pair");
-  app.add_option("--check", options.check, "proofs: the checker");
+  app.add_option("--check", options.checks, "proofs: a checker")->allow_extra_args(false);
   app.add_option("a", options.a, "sides: mesh file");
   app.add_option("b", options.b, "sides: mesh file");
   app.add_option("--effort", options.effort, "sides: of the surveys");

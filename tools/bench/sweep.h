@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "vkhausdorff/solver.h"
 
@@ -25,8 +26,8 @@ struct SweepOptions {
   bool gates = false;         ///< distances: also limits near the distances
   bool closes = false;        ///< distances: what the independent solver closes is to be closed
 
-  size_t cells = 0;   ///< cells and sides: random cells of each pair
-  std::string check;  ///< proofs: a program that takes a certificate and two meshes
+  size_t cells = 0;                 ///< cells and sides: random cells of each pair
+  std::vector<std::string> checks;  ///< proofs: programs that take a certificate and two meshes
 
   std::string a, b;         ///< sides: mesh files
   size_t effort = 200'000;  ///< sides: of the surveys; the cells checked are half as many
@@ -58,7 +59,7 @@ class Swept {
 int sweep_distances(const SweepOptions& options);
 /// Bounds of cells and faces against closest points and the same solver.
 int sweep_cells(const SweepOptions& options);
-/// Certificates: a checker that knows nothing of how they came about accepts every one. Runs differ
+/// Certificates: checkers that know nothing of how they came about accept every one. Runs differ
 /// in preset, switches, workspace, tolerance, direction and limit, and in the limits that end them
 /// and the proof.
 int sweep_proofs(const SweepOptions& options);
