@@ -36,9 +36,18 @@ class Tree:
         for name in COPIED:
             shutil.copytree(ROOT / name, self.folder / name)
 
+    def own(self, test: str) -> pathlib.Path:
+        found, = (self.folder / "tests").glob(f"**/{test}.cpp")
+        return found
+
+    def program_of(self, test: str) -> str:
+        """Its own, or that of all tests in its folder (tests/programs.cmake)."""
+        alone = f"tests/{test}"
+        return alone if (self.build / alone).exists() else f"tests/{self.own(test).parent.name}_tests"
+
     def commands(self, test: str) -> list[str]:
         """The compilation of the test's own file and its link, as ninja would run them."""
-        text = subprocess.run(["ninja", "-C", str(self.build), "-t", "commands", f"tests/{test}"],
+        text = subprocess.run(["ninja", "-C", str(self.build), "-t", "commands", self.program_of(test)],
                               capture_output=True, text=True, check=True).stdout.splitlines()
         compiled = [line for line in text if f"{test}.cpp.o -c " in line]
         if len(compiled) != 1:
@@ -49,18 +58,17 @@ class Tree:
         """True if the test passes. A mutant that does not compile is a mistake in the table."""
         compile_line, link_line = (self.in_this_tree(line) for line in self.commands(test))
         objects = []
-        own, = (self.folder / "tests").glob(f"**/{test}.cpp")
-        for source in [str(own.relative_to(self.folder)), *sources]:
+        for source in [str(self.own(test).relative_to(self.folder)), *sources]:
             made = self.folder / (source.replace("/", "_") + ".o")
             self.shell(compile_line.split(" -o ")[0] + f" -O1 -w -o {made} -c {self.folder / source}")
             objects.append(str(made))
         program = self.folder / test
-        before, after = link_line.split(f" -o tests/{test} ")
+        before, after = link_line.split(f" -o {self.program_of(test)} ")
         head = before.split(" tests/CMakeFiles/")[0]
         # The mutated objects come before the archives, whose own copies are then not taken. A unity build's archive
         # has a room in one object, which comes with the rest of the room: its second definitions are passed over.
         self.shell(f"{head} -Wl,-z,muldefs {' '.join(objects)} -o {program} {after}")
-        environment = dict(os.environ, VKH_CASES=str(self.cases))
+        environment = dict(os.environ, VKH_CASES=str(self.cases), VKH_TEST_NATIVE="1")  # a device runs no mutant of host/native
         return subprocess.run([str(program)], env=environment, stdout=subprocess.DEVNULL,
                               stderr=subprocess.DEVNULL, timeout=600).returncode == 0
 

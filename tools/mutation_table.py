@@ -27,6 +27,8 @@ PLACE = "host/native/place.h"
 SEPARATE = "host/native/separate.h"
 CELL_IN_DOUBLES = "host/native/cell.h"
 BOXES = "host/native/face_tree.h"
+LEVELS = "host/native/levels.cpp"
+COVERAGE = "host/solve/coverage.cpp"
 
 ON_TWO = ["lib_two_float_test", "lib_attack_test", "lib_model_test"]
 ON_CERTIFIED = ["lib_attack_test", "lib_certified_test", "lib_model_test"]
@@ -44,6 +46,7 @@ ON_FRAME = ["frame_test"]
 ON_LENGTH = ["diagonal_test"]
 ON_DOUBLES = ["native_bounds_test"]
 ON_CELLS_IN_DOUBLES = ["native_cells_test"]
+ON_COVERAGE = ["verify_test"]
 
 
 def row(name, file, old, new, tests, nth=1):
@@ -432,6 +435,15 @@ ROWS = [
         ON_CELLS_IN_DOUBLES),
     row("floats below", BOXES, "f - (std::fabs(f) * 0x1p-23f", ["f - (std::fabs(f) * 0x1p-24f", "f - (std::fabs(f) * 0x1p-25f"], ON_CELLS_IN_DOUBLES),
     row("floats above", BOXES, "f + (std::fabs(f) * 0x1p-23f", ["f + (std::fabs(f) * 0x1p-24f", "f + (std::fabs(f) * 0x1p-25f"], ON_CELLS_IN_DOUBLES),
+
+    # --verify of a native run
+    row("a part that is closed natively", LEVELS, "closed_areas_[c.face] += c.area", ["closed_areas_[c.face] += c.area - 1"], ON_COVERAGE),
+    row("a part that is given up natively", LEVELS, "closed_areas_[c->face] += area_of(c->at)",
+        ["closed_areas_[c->face] += area_of(c->at) - 1"], ON_COVERAGE),
+    row("a part that is open natively", LEVELS, " + c.face] += area_of(c.at)", [" + c.face] += area_of(c.at) - 1"], ON_COVERAGE),
+    row("all four children natively", LEVELS, "which < 4", ["which < 3"], ON_COVERAGE),
+    row("parts that wait natively", LEVELS, "<std::ptrdiff_t>(refined)", ["<std::ptrdiff_t>(std::min(refined + 1, open_.size()))"], ON_COVERAGE),
+    row("parts that sum to the whole", COVERAGE, "closed + open == of_face", ["closed + open <= of_face"], ON_COVERAGE),
 ]
 
 QUICK = {"kUlp2", "norm_up", "bound_u2's worst corner", "place's second edge"}
