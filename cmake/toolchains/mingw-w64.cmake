@@ -7,6 +7,6 @@ set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)
 set(CMAKE_CXX_COMPILER x86_64-w64-mingw32-g++-posix)  # posix: std::thread and std::mutex
 set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
-# VKH_WINDOWS_LIBRARIES: what tools/packages/windows/libraries has built.
+# VKH_WINDOWS_LIBRARIES: what tools/packages/libraries has built.
 set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32 ${VKH_WINDOWS_LIBRARIES})
 include(${CMAKE_CURRENT_LIST_DIR}/headers.cmake)

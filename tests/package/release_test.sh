@@ -14,12 +14,18 @@ mkdir -p "$folder"
 parts=(deb kernels source)
 if ! command -v x86_64-w64-mingw32-g++-posix >/dev/null; then
   echo "release_test: no zip, there is no g++-mingw-w64-x86-64-posix"
-elif ! "$source/tools/packages/windows/libraries" "$folder/windows-libraries" >"$folder/log.libraries" 2>&1; then
+elif ! "$source/tools/packages/libraries" windows "$folder/windows-libraries" >"$folder/log.libraries" 2>&1; then
   echo "release_test: no zip, its libraries cannot be built: $(grep -v '^$' "$folder/log.libraries" | tail -n 1)"
 else
   parts+=(windows)
 fi
-if "$PYTHON" -c "import setuptools, pip, wheel" 2>/dev/null; then parts+=(wheel); else echo "release_test: no wheel, $PYTHON has no pip, wheel or setuptools"; fi
+if ! "$PYTHON" -c "import setuptools, pip, wheel" 2>/dev/null; then
+  echo "release_test: no wheel, $PYTHON has no pip, wheel or setuptools"
+elif ! "$source/tools/packages/libraries" linux "$folder/linux-libraries" >"$folder/log.linux" 2>&1; then
+  echo "release_test: no wheel, its libraries cannot be built: $(grep -v '^$' "$folder/log.linux" | tail -n 1)"
+else
+  parts+=(wheel)
+fi
 step "$source/tools/release" --to "$folder" --tree "$build" "${parts[@]}"
 version=$(sed -nE 's/^#define VKH_VERSION_(MAJOR|MINOR|PATCH) //p' "$source/engine/vkhausdorff.h" | paste -sd.)
 cd "$folder/files"
@@ -44,10 +50,14 @@ if [[ " ${parts[*]} " == *" windows "* ]]; then
   has_notices "$zip/THIRD_PARTY.txt"
 fi
 if [[ " ${parts[*]} " == *" wheel "* ]]; then
-  step "$PYTHON" -m pip install --no-deps --no-index --target "$folder/site" vkhausdorff-"$version"-*.whl
+  step "$PYTHON" -m pip install --no-deps --no-index --target "$folder/site" vkhausdorff-"$version"-*-manylinux_2_*.whl
   found=$(cd "$folder/site" && "$PYTHON" -c "import vkhausdorff; print(vkhausdorff.__version__)")
   [ "$found" = "$version" ] || fail "the wheel is of version $found"
   has_notices "$folder/site/vkhausdorff-$version.dist-info/THIRD_PARTY.txt"
+  # What each manylinux of PEP 600 has, and every Debian, however slim.
+  more=$(readelf -d "$folder"/site/vkhausdorff/_core.*.so | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' |
+    grep -vxE 'libstdc\+\+\.so\.6|libgcc_s\.so\.1|lib[cm]\.so\.6|libz\.so\.1|ld-linux.*' || true)
+  [ -z "$more" ] || fail "the wheel needs $more"
 fi
 
 step tar -C "$folder" -xzf "vkhausdorff-$version.tar.gz"
