@@ -28,7 +28,7 @@ if(NOT VKH_SANITIZE)
   # the examples of clusters.
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
                     proven_placing batch_killed clang_all driver_lavapipe128_more platform_arm64 platform_libcxx
-                     platform_arm64_more platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
+                     platform_arm64_more platform_nehalem platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
                      slurm dask clusters points_many)
   # A program of its own whose one test is not a default one is built by vkh_full.
   foreach(source IN LISTS VKH_TEST_SOURCES)

@@ -197,6 +197,20 @@ class Driver(Platform):
         yield
 
 
+class Nehalem(Driver):
+    """This build on an x86-64 without AVX and fused products, under qemu-user: without Vulkan, whose driver would compile for
+    this machine."""
+
+    limit = 1200
+    is_emulated = True
+
+    def __init__(self, source: pathlib.Path, build: pathlib.Path):
+        super().__init__("nehalem", source, build)
+        emulator = need("qemu-x86_64-static", "qemu-x86_64")
+        self.starter = [emulator, "-cpu", "Nehalem"]
+        self.versions = [first_line(emulator, "--version")]
+
+
 class SwiftShader(Driver):
     """A CPU driver of another maker: subgroups of 4, no push descriptors, synchronization2 in its core."""
 

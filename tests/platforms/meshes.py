@@ -1,4 +1,4 @@
-"""Ten generated pairs, as files in the four formats, under names that are no ASCII."""
+"""Generated pairs, as files in the four formats, under names that are no ASCII."""
 
 import math
 import pathlib
@@ -78,16 +78,16 @@ def write_long(folder):
 FORMATS = (("obj", as_obj), ("ply", as_ply), ("stl", as_stl), ("off", as_off))
 
 
-def write(folder: pathlib.Path) -> list[tuple[str, str]]:
-    """The names of A and B of ten pairs, from `folder`."""
+def write(folder: pathlib.Path, count: int = 10) -> list[tuple[str, str]]:
+    """The names of A and B of so many pairs, from `folder`."""
     (folder / FOLDER).mkdir(parents=True, exist_ok=True)
     pairs = []
-    for i in range(10):
-        rng = random.Random(1000 + i)
-        if i % 3 == 2:
-            both = soup(rng, 60, 0.3, 2.0 ** (3 * i)), soup(rng, 80, 0.3, 2.0 ** (3 * i))
+    for i in range(count):
+        rng, k = random.Random(1000 + i), i % 10
+        if k % 3 == 2:
+            both = soup(rng, 60, 0.3, 2.0 ** (3 * k)), soup(rng, 80, 0.3, 2.0 ** (3 * k))
         else:
-            both = sheet(rng, 8 + i, 0.01, 0), sheet(rng, 7 + i, 0.02, 0.05 * (i % 2))
+            both = sheet(rng, 8 + k, 0.01, 0), sheet(rng, 7 + k, 0.02, 0.05 * (i % 2))
         names = []
         for side, mesh in zip("AB", both):
             extension, encode = FORMATS[(i + (side == "B")) % 4]

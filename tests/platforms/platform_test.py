@@ -1,6 +1,6 @@
 """The program, the sweep and the kernels' tests on another platform or driver, against the program here, bit for bit.
 
-usage: platform_test.py windows|arm64|libcxx|swiftshader|lavapipe128|lavapipe256|lavapipe512 --native BUILD [--only GROUP[,GROUP...]] [--sweep N]
+usage: platform_test.py windows|arm64|libcxx|nehalem|swiftshader|lavapipe128|lavapipe256|lavapipe512 --native BUILD [--only GROUP[,GROUP...]] [--sweep N]
 
 Each group is a line: what was compared and how long it took. Exit code 77, with the reason: the compiler, the emulator
 or the platform's driver is not here.
@@ -22,7 +22,7 @@ import sys
 import time
 
 import meshes
-from emulated import Arm64, Lavapipe, Libcxx, Platform, Skip, SwiftShader, Windows
+from emulated import Arm64, Lavapipe, Libcxx, Nehalem, Platform, Skip, SwiftShader, Windows
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 TESTS = SOURCE / "tests"
@@ -46,10 +46,10 @@ def told(done: subprocess.CompletedProcess) -> str:
 
 
 def without_times(text: bytes) -> dict:
-    """The parts that must be equal: all of an answer but the clock's part and the device's name.
+    """The parts that must be equal: all of an answer or a result line but the clock's part and the device's name.
     How many waves are recorded, and so how often a stage is timed, is the clock's, too."""
     answer = json.loads(text)
-    for key in ("device", "driver", "host", "started", "times"):
+    for key in ("device", "driver", "host", "started", "times", "run"):
         answer.pop(key, None)
     for one in (*answer.get("directions", []), *answer.get("inputs", [])):
         one.pop("times", None)
@@ -122,6 +122,24 @@ class Run:
         for i, (a, b) in enumerate(pairs):
             self.same("distance", a, b, *(["--symmetric"] if i % 5 == 0 else []), folder=folder)
         return f"{len(pairs)} pairs in OBJ, PLY, STL and OFF, all bits and counts equal"
+
+    def without_vulkan(self) -> str:
+        """Distances both ways, sides, figures and normals, by --device native; some pairs have no sides, and say so."""
+        folder = self.platform.build / "pairs"
+        pairs = meshes.write(folder, 60)
+        (folder / "list.csv").write_text("id,a,b\n" + "".join(f"{i},{a},{b}\n" for i, (a, b) in enumerate(pairs)), encoding="utf-8")
+        for name, words in (("signed", ("--symmetric", "--signed", "--tol=1e-9")), ("metrics", ("--metrics", "--normals=20", "--bands=1%"))):
+            lines = []
+            for run, out in ((functools.partial(self.platform.run, "vkhausdorff"), "there.jsonl"), (self.here, "here.jsonl")):
+                (folder / out).unlink(missing_ok=True)
+                done = run("batch", "list.csv", *words, "--effort=500", "--device=native", f"--out={out}", folder=folder)
+                expect(done.returncode in (0, 3, 4), told(done))
+                lines.append(sorted((folder / out).read_text(encoding="utf-8").splitlines()))
+            there, here = lines
+            expect(len(there) == len(here) == len(pairs), told(done))
+            found = [d for x, y in zip(here, there) for d in differences(without_times(x), without_times(y), name)]
+            expect(not found, "\n".join(found[:20]))
+        return f"{len(pairs)} pairs by --device native: distances, sides, figures and normals, all bits equal"
 
     def table(self) -> str:
         """The text for people, except for the line of times; and a file beside it, whose name is no
@@ -240,18 +258,20 @@ class Run:
         return "a terminal: the line of progress, the table"
 
 
+NATIVELY = {"without_vulkan": Run.without_vulkan}
 GROUPS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "table": Run.table,
           "api": Run.api, "host": Run.host, "interrupt": Run.interrupt, "kernels": Run.kernels, "sweep": Run.sweeping}
 GROUPS_OF = {"windows": GROUPS | {"console": Run.console},
              "libcxx": {name: GROUPS[name] for name in ("doctor", "demo", "manifest", "generated", "table", "sweep")}
              | {"suite": Run.suite},
              # Emulated, the kernels' tests and the generated pairs would take minutes: --only has them run.
-             "arm64": {name: GROUPS[name] for name in ("doctor", "demo", "manifest", "sweep")}}
+             "arm64": {name: GROUPS[name] for name in ("doctor", "demo", "manifest", "sweep")} | NATIVELY,
+             "nehalem": NATIVELY}
 OF_DRIVERS = {"doctor": Run.doctor, "demo": Run.demo, "manifest": Run.manifest, "generated": Run.generated, "api": Run.api,
               "kernels": Run.kernels, "presets": Run.presets, "sweep": Run.sweeping}
 DRIVERS = {"swiftshader": SwiftShader,
            **{f"lavapipe{bits}": functools.partial(Lavapipe, bits) for bits in (128, 256, 512)}}
-PLATFORMS = {"windows": Windows, "arm64": Arm64, "libcxx": Libcxx, **DRIVERS}
+PLATFORMS = {"windows": Windows, "arm64": Arm64, "libcxx": Libcxx, "nehalem": Nehalem, **DRIVERS}
 NEEDS = {"kernels": ["engine_tests"], "host": ["unit_tests", "files_tests"], "api": ["api_c11"], "sweep": ["vkh_sweep"], "suite": ["all"]}  # and the program
 
 
@@ -264,7 +284,7 @@ def main() -> int:
     arguments = parser.parse_args()
     groups = GROUPS_OF.get(arguments.platform, OF_DRIVERS)
     if arguments.only:
-        every = GROUPS | OF_DRIVERS | GROUPS_OF["windows"]
+        every = GROUPS | OF_DRIVERS | GROUPS_OF["windows"] | NATIVELY
         groups = {name: every[name] for name in arguments.only.split(",")}
     try:
         platform = PLATFORMS[arguments.platform](SOURCE, arguments.native.resolve())
