@@ -208,8 +208,9 @@ bool Rules::survey(const VkhProblem& p, const VkhSurvey& survey, uint64_t cells)
            survey.capacity >= p.a.faceCount && survey.capacity <= largest_survey(context_.limits));
   VKH_RULE("VkhSurvey::memory: at least vkhGetSurveySize bytes",
            survey.memory.size >= survey_size(p.a.faceCount, survey.capacity));
-  VKH_RULE("VkhSurvey::faceWidth: at least 0, and finite",
-           survey.faceWidth >= 0 && survey.faceWidth <= FLT_MAX);
+  VKH_RULE("VkhSurvey::faceWidth, faceLimit: at least 0, and finite",
+           survey.faceWidth >= 0 && survey.faceWidth <= FLT_MAX && survey.faceLimit >= 0 &&
+               survey.faceLimit <= FLT_MAX);
   VKH_RULE("a survey: room for all cells", cells >= 1 && cells <= survey.capacity);
   return kept_;
 }

@@ -107,14 +107,21 @@ void record_score(Recorder& rec, const Problem& p, const SurveyStreams& survey, 
   rec.run<k::SurveyScore>(given, Groups{groups});
 }
 
-// The plan: each face's error is known to `width`. It stands in for one of the host's.
-void record_plan_of_faces(Recorder& rec, const SurveyStreams& survey, float width) {
+// The plan: each face's error is known to a width, or on which side of a limit it is. It stands in
+// for one of the host's.
+void record_plan_of_faces(Recorder& rec, const SurveyStreams& survey, const VkhSurvey& asked) {
   using Plan = gpu::SurveyPlan;
+  const auto within = std::bit_cast<uint32_t>(asked.faceLimit);
+  const float beyond = asked.faceLimit > 0 ? asked.faceLimit : FLT_MAX;
   rec.fill(survey.plan, 0);
   fill_words(rec, survey.plan,
              std::array{std::pair{offsetof(Plan, faces), 1u},
-                        std::pair{offsetof(Plan, face_tolerance), std::bit_cast<uint32_t>(width)},
-                        std::pair{offsetof(Plan, face_beyond), std::bit_cast<uint32_t>(FLT_MAX)}});
+                        std::pair{offsetof(Plan, face_tolerance),
+                                  std::bit_cast<uint32_t>(asked.faceWidth)},
+                        std::pair{offsetof(Plan, face_beyond), std::bit_cast<uint32_t>(beyond)},
+                        std::pair{offsetof(Plan, face_within), within},
+                        std::pair{offsetof(Plan, face_within) + 4, within},
+                        std::pair{offsetof(Plan, face_within) + 8, within}});
 }
 
 enum class Splits { kNo, kYes };
@@ -192,7 +199,7 @@ void record_survey_begin(Recorder& rec, const Problem& p, const SurveyStreams& s
 
 void record_survey_waves(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurvey& asked, uint32_t waves) {
-  if (waves > 0) record_plan_of_faces(rec, survey, asked.faceWidth);
+  if (waves > 0) record_plan_of_faces(rec, survey, asked);
   for (uint32_t i = 0; i < waves; ++i) {
     const auto scope = rec.scope("survey wave");
     const uint32_t parents = survey_parents(asked.capacity);
@@ -207,7 +214,7 @@ void record_survey_waves(Recorder& rec, const Problem& p, const SurveyStreams& s
 void record_survey_report(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                           const VkhSurvey& asked, const Slice<gpu::SurveyWave>& report) {
   const auto scope = rec.scope("survey report");
-  record_plan_of_faces(rec, survey, asked.faceWidth);
+  record_plan_of_faces(rec, survey, asked);
   record_choice(rec, p, survey, asked.capacity, Splits::kNo);
   rec.copy({survey.wave.buffer, survey.wave.offset, report.size}, report);
 }

@@ -16,7 +16,8 @@
  *               once a pair:        vkhGetWorkspaceRequirements, vkhCmdBegin
  *               then as you like:   vkhCmdAdvance (n waves), vkhCmdWriteReport
  *               points alone:       vkhCmdFindClosest, which needs B and no pair
- *               each face's error:  vkhCmdBeginSurvey, vkhCmdAdvanceSurvey, vkhCmdWriteSurveyFaces
+ *               each face's error:  vkhGetSurveySize, vkhCmdBeginSurvey, vkhCmdAdvanceSurvey (n
+ *                                   waves), vkhCmdWriteSurveyFaces
  *               many pairs at once: vkhCmdRunTasks, which builds, begins, advances and reports
  * All of it may stand in one command buffer, or be spread over many: two waves a frame and a report
  * after each. Reports of one run nest: lower never falls and upper never rises, but for rounding.
@@ -574,26 +575,36 @@ VKH_API void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer,
 /* A survey tells how far each face of A is from B: cells that tile A's faces are bounded as by
  * vkhCmdBoundCells, and those that leave a face's error open are split, wave by wave. The device
  * plans: nothing is read back. In one command buffer, or in those of several frames:
- *     vkhCmdBegin, vkhCmdAdvance     as for h; a few waves, or none, are enough
+ *     vkhCmdBegin, vkhCmdAdvance     as for h; a few waves, or none, are enough, and for these a
+ *                                    workspace of VkhWorkspaceRequirements::compact
  *     vkhCmdBeginSurvey              once, and again when A or B has moved
  *     vkhCmdAdvanceSurvey            as many waves as the frame has time for; or none
  *     vkhCmdWriteSurveyFaces         the errors, for the shader that draws A
  *     vkhCmdWriteSurvey              how it stands
- * Needs a context of VKH_CONTEXT_CELLS. The run does not change, and may advance in between. A
- * survey of an unknown `size` is left out whole. */
+ * Needs a context of VKH_CONTEXT_CELLS. The run does not change, and may advance in between: of it
+ * the survey needs the BVH and the copy of A in the workspace. A survey of an unknown `size` is
+ * left out whole. h lies between the largest `reached` and the largest `highest` of all faces, and
+ * so in what that interval has in common with the run's report. */
 typedef struct VkhSurvey {
-  size_t size;       /* sizeof(VkhSurvey) */
-  VkhMemory memory;  /* vkhGetSurveySize bytes; usage STORAGE_BUFFER, TRANSFER_SRC, TRANSFER_DST. No
-                      * other survey may use it at the same time; others may after it */
-  uint32_t capacity; /* cells that it has room for: at least A's faces, for waves some four times as
-                      * many; at most vkhGetSurveyCapacity */
-  float faceWidth; /* a face's cells are split while its `highest` is farther than so much from its
-                    * `reached`, in the coordinates' units; 0: as far as float32 tells */
+  size_t size; /* sizeof(VkhSurvey) */
+  /* vkhGetSurveySize bytes; usage STORAGE_BUFFER, TRANSFER_SRC, TRANSFER_DST, no INDIRECT_BUFFER.
+   * No other survey may use it at the same time; others may after it. */
+  VkhMemory memory;
+  /* Cells that it has room for: at least A's faces, at most vkhGetSurveyCapacity. A split takes
+   * room for three, and cells that are done keep theirs. Four times A's faces hold one wave that
+   * splits all; a sphere of 2,000 faces took 11 times as many for errors to 1e-4 of its radius. */
+  uint32_t capacity;
+  /* A face's cells are split while its `highest` is farther than so much from its `reached`, in the
+   * coordinates' units. 0: as far as float32 tells, which few have room for. A thousandth of the
+   * diagonal does for a colour. */
+  float faceWidth;
+  /* > 0: a face is done, too, once it is known to be within this, or not to be. 0: no limit. */
+  float faceLimit;
 } VkhSurvey;
 
 /* The most cells that the device's bindings reach. */
 VKH_API uint32_t vkhGetSurveyCapacity(VkhContext context);
-/* Bytes: some 150 a cell, and 16 a face of A. */
+/* Bytes: some 115 a cell, and 16 a face of A. */
 VKH_API VkDeviceSize vkhGetSurveySize(VkhContext context, uint32_t faceCount, uint32_t capacity);
 
 /* Makes each face of A a cell, and bounds them all. Reads the BVH and the workspace, writes the
@@ -613,8 +624,8 @@ VKH_API void vkhCmdAdvanceSurvey(VkhContext context, VkCommandBuffer commandBuff
  * vkhausdorff_report.glsl. */
 typedef struct VkhSurveyReport {
   /* VKH_STATUS_RUNNING: a wave would split some cells. DECIDED: each face's error is known to
-   * faceWidth. PRECISION: to that, or to what float32 tells. MEMORY: there is no room to split any.
-   * INPUT: as in the report of the run; nothing is known. */
+   * faceWidth, or decided by faceLimit. PRECISION: to that, or to what float32 tells. MEMORY: there
+   * is no room to split any. INPUT: as in the report of the run; nothing is known. */
   uint32_t status;
   uint32_t waves; /* that have split cells */
   uint32_t cells;
@@ -622,8 +633,8 @@ typedef struct VkhSurveyReport {
 } VkhSurveyReport;
 
 /* Writes the report at `offset` (a multiple of 4 bytes) of `buffer` (usage TRANSFER_DST, and what
- * you read it by), in ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use of
- * it. */
+ * you read it by), in ALL_TRANSFER with TRANSFER_WRITE (in a barrier of Vulkan 1.0: TRANSFER): put
+ * a barrier from there to your use of it; one serves the report and the faces. */
 VKH_API void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhProblem* problem, const VkhSurvey* survey, VkBuffer buffer,
                                VkDeviceSize offset, VkhProfile* profile);
@@ -632,8 +643,9 @@ VKH_API void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer
  * `buffer` (usage TRANSFER_DST, and STORAGE_BUFFER for a shader): float[2 * faceCount], in the
  * coordinates' units. The first faceCount are `reached`: some point of the face is at least so far
  * from B. Those behind them are `highest`: none is farther. Certified, as VkhReport::lower and
- * upper are; NaN where the report would be of VKH_STATUS_INPUT. A fragment shader that draws A
- * finds its face's at gl_PrimitiveID and faceCount + gl_PrimitiveID. Written in ALL_TRANSFER with
+ * upper are; NaN where the report would be of VKH_STATUS_INPUT. A fragment shader finds its face's
+ * at gl_PrimitiveID and faceCount + gl_PrimitiveID, if one draw has A's faces in their order;
+ * gl_PrimitiveID needs the device's feature geometryShader. Written in ALL_TRANSFER with
  * TRANSFER_WRITE: put a barrier from there to your use, such as FRAGMENT_SHADER with
  * SHADER_STORAGE_READ; before the next frame writes them again, wait for that stage by your barrier
  * to COMPUTE_SHADER, as for a report. */

@@ -46,9 +46,9 @@ extern "C" {
 /* Surveys by plans of the caller's: for figures, maps, sides and normals. The caller says what
  * scores, and by the counts of scores what is split. The structs that its buffers hold are those of
  * shaders/gpu_types.h, SurveyPlan and SurveyTable. Calls need what vkhCmdBeginSurvey needs; they
- * are recorded in their order, and each waits for the one before it. VkhSurvey::faceWidth is not
- * used. Offsets are multiples of 256 bytes. Results are written in ALL_TRANSFER with
- * TRANSFER_WRITE. */
+ * are recorded in their order, and each waits for the one before it. VkhSurvey::faceWidth and
+ * faceLimit are not used. Offsets are multiples of 256 bytes. Results are written in ALL_TRANSFER
+ * with TRANSFER_WRITE. */
 
 typedef struct VkhSurveyCells {
   VkBuffer weightBuffer; /* an integer of 64 bits for each face of A, all together under 2^62;

@@ -147,7 +147,8 @@ class Bench {
     return {.size = sizeof(VkhSurvey),
             .memory = {gpu_.buffer(size, example::Memory::kDevice).handle, 0, size},
             .capacity = cells,
-            .faceWidth = 1000 * options_.tolerance};
+            .faceWidth = 1000 * options_.tolerance,
+            .faceLimit = 0};
   }
 
   void deform(uint32_t number) {

@@ -52,7 +52,8 @@ VkhSurvey survey_of(Gpu& gpu, uint32_t faces) {
   return {.size = sizeof(VkhSurvey),
           .memory = {gpu.buffer(size, Memory::kDevice).handle, 0, size},
           .capacity = capacity,
-          .faceWidth = 0};
+          .faceWidth = 0,
+          .faceLimit = 0};
 }
 
 }  // namespace

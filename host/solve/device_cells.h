@@ -48,7 +48,7 @@ class DeviceCells : public SurveyCells {
  private:
   VkhSurvey view() const { return view_of(buffers_.memory, capacity_); }
   static VkhSurvey view_of(const Buffer& memory, uint32_t capacity) {
-    return {sizeof(VkhSurvey), {memory.handle(), 0, memory.size()}, capacity, 0};
+    return {sizeof(VkhSurvey), {memory.handle(), 0, memory.size()}, capacity, 0, 0};
   }
   bool make_room(size_t cells);
   void write_plan(const gpu::SurveyPlan& plan);

@@ -41,7 +41,7 @@ struct Told {
 /// A pair with a survey of its A: begun, advanced and read as the caller likes.
 class FaceBench {
  public:
-  FaceBench(VkhContext context, ApiMesh& a, ApiMesh& b, uint32_t room, float width)
+  FaceBench(VkhContext context, ApiMesh& a, ApiMesh& b, uint32_t room, float width, float limit = 0)
       : context_(context),
         faces_(a.view().faceCount),
         pair_(a, b, 1e-5f, context),
@@ -49,7 +49,9 @@ class FaceBench {
                 Placement::kDevice),
         told_(test_device(), sizeof(VkhSurveyReport) + 2 * faces_ * sizeof(float),
               VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback),
-        survey_{sizeof(VkhSurvey), {memory_.handle(), 0, memory_.size()}, room * faces_, width} {}
+        survey_{
+            sizeof(VkhSurvey), {memory_.handle(), 0, memory_.size()}, room * faces_, width, limit} {
+  }
 
   void record_begin(VkCommandBuffer c) {
     pair_.build(c);
@@ -196,6 +198,28 @@ TEST_CASE("a survey splits as much as it has room for, the widest first") {
   CHECK(widest(more) < widest(little));
   check_narrower(without, little);
   for (const Told& told : {without, little, more}) check_true(told, of.a, of.b);
+}
+
+TEST_CASE("with a limit, a face is done once it is within it or beyond it") {
+  const ContextHandle context = make_context(VKH_DEVICE_KIND_NARROW);
+  Meshes of;
+  constexpr float kLimit = 0.15f;
+  FaceBench with(context.get(), of.a, of.b, 64, 1e-4f, kLimit),
+      without(context.get(), of.a, of.b, 64, 1e-4f);
+  with.begin();
+  without.begin();
+  const Told decided = with.advance(12), all = without.advance(12);
+  CHECK(decided.report.status == VKH_STATUS_DECIDED);
+  CHECK(2 * decided.report.cells < all.report.cells);
+  uint32_t within = 0, beyond = 0;
+  for (uint32_t i = 0; i < with.faces(); ++i) {
+    within += decided.errors[with.faces() + i] <= kLimit ? 1 : 0;
+    beyond += decided.errors[i] > kLimit ? 1 : 0;
+  }
+  CHECK(within > 0);
+  CHECK(beyond > 0);
+  CHECK(within + beyond == with.faces());
+  check_true(decided, of.a, of.b);
 }
 
 TEST_CASE("where floats tell no more, a survey ends by precision") {

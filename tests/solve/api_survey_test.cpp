@@ -54,7 +54,7 @@ struct SurveyBench {
         given(test_device(), 65536 + 8 * faces, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
               Placement::kUpload),
         found(test_device(), 4'000'000, VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback),
-        survey{sizeof(VkhSurvey), {memory.handle(), 0, memory.size()}, capacity, 0} {
+        survey{sizeof(VkhSurvey), {memory.handle(), 0, memory.size()}, capacity, 0, 0} {
     const std::vector<uint64_t> weights(faces, kWeight);
     std::memcpy(given.mapped() + 65536, weights.data(), 8 * faces);
   }
@@ -191,7 +191,10 @@ TEST_CASE("a survey's rules are told, and what breaks them records nothing") {
   check("VkhSurvey::size", unknown, faces);
   VkhSurvey endless = bench.survey;
   endless.faceWidth = -1;
-  check("VkhSurvey::faceWidth", endless, faces);
+  check("VkhSurvey::faceWidth, faceLimit", endless, faces);
+  VkhSurvey below = bench.survey;
+  below.faceLimit = -1;
+  check("VkhSurvey::faceWidth, faceLimit", below, faces);
   check("a survey: room for all cells", bench.survey, 2 * faces + 1);
 }
 

@@ -169,7 +169,8 @@ void PairBench::reserve_survey(VkhContext context, uint32_t cells_a_face, float 
   survey = {.size = sizeof(VkhSurvey),
             .memory = reserve(vkhGetSurveySize(context, faces, cells)),
             .capacity = cells,
-            .faceWidth = face_width};
+            .faceWidth = face_width,
+            .faceLimit = 0};
   for (VkDeviceSize& at : surveys_at_)
     at = reserve(sizeof(VkhSurveyReport) + 2 * faces * sizeof(float)).offset;
 }
