@@ -20,7 +20,7 @@ import meshes  # noqa: E402
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 LAYER = os.environ["VKH_LAYER_FOLDER"]
 QUICK = ["--effort", "0"]
-CELLS = 11  # kernels: the bounds of cells, and what a survey does with them
+CELLS = 12  # kernels: the bounds of cells, and what a survey does with them
 
 
 class Pipelines(unittest.TestCase):
