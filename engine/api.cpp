@@ -590,7 +590,8 @@ void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
                              offset};
     vkh::record_survey_faces(rec, call.p, call.streams, all);
   } else {
-    vkh::record_unbuilt_faces(rec, {buffer, offset, 2 * problem->a.faceCount * sizeof(float)});
+    vkh::record_unbuilt_faces(
+        rec, {buffer, offset, 2 * sizeof(float) * VkDeviceSize{problem->a.faceCount}});
   }
 }
 

@@ -23,7 +23,7 @@ if(NOT VKH_SANITIZE)
                  vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
                  proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
                  python_life python_fork python_lost python_distances python_distances_life python_meshes python_metrics
-                 metrics solver_oracle_test cgal_test)
+                 metrics solver_oracle_test cgal_test pages)
   # A minute and more each: the same kernels with more cases, compiled for another card or system, and
   # the examples of clusters.
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack

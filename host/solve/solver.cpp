@@ -284,7 +284,7 @@ struct Framed {
 // Makes the frame unless it is known, and leaves it for later calls.
 KeptPair shared_frame(const PairView& m, const std::function<FramedPair()>& make) {
   if (m.kept != nullptr && *m.kept != nullptr) return *m.kept;
-  const auto made = std::make_shared<const FramedPair>(m.framed != nullptr ? *m.framed : make());
+  KeptPair made = std::make_shared<const FramedPair>(m.framed != nullptr ? *m.framed : make());
   if (m.kept != nullptr) *m.kept = made;
   return made;
 }

@@ -1,4 +1,4 @@
-"""Each command of the pages runs here: the lines that are indented and begin with the program or vkh_check.
+"""Each command of the pages runs here: the lines that are indented and begin with the program, vkh_check or a loop.
 
 usage: pages_test.py PROGRAM CHECK PAGE... A page's commands run in their order, in one folder with small files of the
 names that they use. Files of the shared pairs are taken from there, if they are there.
@@ -21,8 +21,9 @@ import meshes  # noqa: E402
 
 PROGRAM, CHECK, *PAGES = (pathlib.Path(word).resolve() for word in sys.argv[1:])
 SHARED = pathlib.Path(__file__).resolve().parents[2].parent / "shared/pairs"
-COMMAND = re.compile(r"^    (?:\$ )?((?:out/)?vkhausdorff .*|vkh_check .*)$", re.MULTILINE)
+COMMAND = re.compile(r"^    (?:\$ )?((?:out/)?vkhausdorff .*|vkh_check .*|for .*; do vkhausdorff .*)$", re.MULTILINE)
 FAILS = {"thingi10k_37322.ply"}  # commands that name these end with FAIL
+TWO_DEVICES = "--device 0,1"
 
 
 def body(n, size):
@@ -93,6 +94,9 @@ class Pages(unittest.TestCase):
                 folder = pathlib.Path(scratch)
                 write_files(folder)
                 for command in commands:
+                    if TWO_DEVICES in command:
+                        print(f"not run, for it needs two devices: {command}")
+                        continue
                     shared = [word for word in command.split() if word.startswith("thingi10k_")]
                     if any(not (SHARED / word).exists() for word in shared):
                         print(f"not run, for it needs {SHARED}: {command}")
