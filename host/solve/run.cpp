@@ -237,8 +237,9 @@ void Runner::read_stages(const Submission& submission, std::vector<RunOutput>& o
 // Finds each pair its buffers: those in which it lies, if there are any, and none in which another
 // one lies that is kept, if two are enough for that: of a pair both ways, each has its own.
 void Runner::arrange(std::span<const RunInput> inputs) {
-  constexpr size_t kFew = 2;
+  constexpr size_t kDirections = 2;
   for (size_t i = 0; i < inputs.size() && inputs[i].kept != nullptr; ++i) {
+    if (i > buffers_.size()) return;
     const auto first = buffers_.begin() + static_cast<std::ptrdiff_t>(i);
     auto own = std::find_if(first, buffers_.end(),
                             [&](const auto& buffers) { return buffers->has(inputs[i]); });
@@ -247,7 +248,7 @@ void Runner::arrange(std::span<const RunInput> inputs) {
                          [](const auto& buffers) { return !buffers->is_kept(); });
     if (own != buffers_.end()) {
       std::swap(*first, *own);
-    } else if (buffers_.size() < kFew) {
+    } else if (buffers_.size() < kDirections) {
       buffers_.insert(first, std::make_unique<PairBuffers>(device_, nullptr));
     }
   }

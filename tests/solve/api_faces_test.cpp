@@ -250,6 +250,7 @@ TEST_CASE("of an input that is no mesh nothing is known") {
     CHECK(is_unknown(bench.begin()));
     CHECK(is_unknown(bench.advance(2)));
   }
+#ifdef NDEBUG  // a build that checks calls ends there
   SUBCASE("as its description tells") {
     const ContextHandle context = make_context(VKH_DEVICE_KIND_NARROW);
     FaceBench bench(context.get(), of.a, of.b, 8, 1e-3f);
@@ -260,6 +261,7 @@ TEST_CASE("of an input that is no mesh nothing is known") {
     });
     CHECK(is_unknown(told));
   }
+#endif
 }
 
 }  // namespace
