@@ -281,7 +281,8 @@ std::string metric_text(const AnswerFigure& metric, const std::string& unit) {
 // `of`: what the share is of, before any remark.
 std::string share_metric_text(const AnswerFigure& share, const std::string& of) {
   const std::string likely = likely_text(share, "");
-  if (!is_known(share) || share.value.lower == share.value.upper) return likely + of;
+  if (!is_known(share)) return likely + of + (share.jump ? goal_text(share) : "");
+  if (share.value.lower == share.value.upper) return likely + of;
   return likely + ", in " + share_text(share.value) + of + goal_text(share);
 }
 
