@@ -121,7 +121,7 @@ RenderedFrame Renderer::frame(uint32_t number, float time, float camera) {
 }
 
 // The first frame builds and starts cold; later ones refit, and start from the frame before. An
-// eighth of a pixel decides between levels well enough, and is all that a face's colour shows.
+// eighth of a pixel decides between levels well enough. The survey splits every face once.
 void Renderer::certify(VkCommandBuffer commands, uint32_t number, float pixel) {
   const auto hierarchy = number == 0 ? Pair::Hierarchy::kBuild : Pair::Hierarchy::kRefit;
   for (uint32_t k = 0; k + 1 < kLevels; ++k) {

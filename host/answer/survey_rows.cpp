@@ -249,7 +249,7 @@ namespace {
 
 constexpr double kShownPercent = 0.01;
 
-// Of a share nothing is known while it may be none and all.
+// Nothing is known of a share that may be none and all.
 bool is_known(const AnswerFigure& figure) {
   const Enclosure& e = figure.value;
   return figure.power == 0 ? e.lower > 0 || e.upper < 1 : std::isfinite(e.upper);

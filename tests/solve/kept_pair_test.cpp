@@ -15,7 +15,7 @@ namespace {
 using namespace vkh;
 using namespace vkh::test;
 
-/// What a survey begins with.
+/// The start of a survey.
 struct Start {
   double farthest = 0;
   std::vector<gpu::CellBounds> faces;

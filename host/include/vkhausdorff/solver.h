@@ -53,7 +53,7 @@ struct PairView {
   /// made before, on any thread, for two meshes that check_mesh() let pass; null: the call checks
   /// and frames them.
   const FramedPair* framed = nullptr;
-  /// Of the caller, for these two meshes alone; null: the call leaves nothing to find.
+  /// Points to a place of the caller's for these two meshes alone; null: nothing is left to find.
   KeptPair* kept = nullptr;
   KeptPair* kept_back = nullptr;  ///< of h(b, a), for symmetrics()
 };

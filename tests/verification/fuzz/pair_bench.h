@@ -49,7 +49,7 @@ class PairBench {
   void move();
   /// Room for a survey of A, to be called after take().
   void reserve_survey(VkhContext context, uint32_t cells_a_face, float face_width);
-  /// What was written at survey_offset(slot): the report, and the faces' errors behind it.
+  /// Read what lies at survey_offset(slot): the report, and the faces' errors behind it.
   VkhSurveyReport survey_report(uint32_t slot) const;
   std::vector<float> face_errors(uint32_t slot) const;
   VkhReport report(uint32_t slot) const;
