@@ -121,9 +121,11 @@ RenderedFrame Renderer::frame(uint32_t number, float time, float camera) {
 }
 
 // The first frame builds and starts cold; later ones refit, and start from the frame before. An
-// eighth of a pixel decides between levels well enough. The survey splits every face once.
+// eighth of a pixel decides between levels well enough, and tells a face's colour. The survey
+// splits faces that are not known to that once.
 void Renderer::certify(VkCommandBuffer commands, uint32_t number, float pixel) {
   const auto hierarchy = number == 0 ? Pair::Hierarchy::kBuild : Pair::Hierarchy::kRefit;
+  survey_.faceWidth = 0.125f * pixel;
   for (uint32_t k = 0; k + 1 < kLevels; ++k) {
     pairs_[k].certify(commands, hierarchy, number > 0, options_.waves, 0.125f * pixel);
     pairs_[k].write_report(commands, reports_, k * kReportStride);
