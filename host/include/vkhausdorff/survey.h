@@ -80,7 +80,7 @@ struct SurveyOptions {
   /// No distance is above it, in the files' units.
   double upper = std::numeric_limits<double>::infinity();
   /// The number of cells that the device may bound besides each face once. Unset:
-  /// default_effort(). The host needs 60 to 90 bytes for each of them. A point of A is not split
+  /// default_effort(). The device needs some 115 bytes for each of them. A point of A is not split
   /// but measured on the host, once, which takes as much of it as a split: two.
   std::optional<size_t> effort = {};
   /// The limit for the survey alone. A survey that it ends differs from run to run. Where sides are
