@@ -1,7 +1,7 @@
 # Chooses what `tools/test` runs by default. The goal for it is 20 minutes on two cores from a clone, builds included, and 50
 # for `tools/test --full`, which .ci/run calls and which adds the tests labelled "full" (docs/log/build.md has what was
 # measured). Those labelled "nightly" are for `ninja nightly`, and in the sanitizer tree for
-# `ctest --test-dir out/asan -L nightly`.
+# `ninja -C out/asan vkh_nightly && ctest --test-dir out/asan -L nightly`.
 
 # vkh_label(LABEL TEST...): labels those that there are; the last call decides.
 function(vkh_label label)
@@ -46,6 +46,7 @@ endif()
 # The sanitizer tree begins with the code that accepts any file: the readers, their tests and their fuzzer, which need
 # four rooms of the host. A start of the instrumented program takes two seconds and more, so that tests of many starts are
 # full; and a compiled test takes twice the time of the release tree's.
+add_custom_target(vkh_nightly)  # programs of the nightly tests
 set(VKH_QUICK_ROOMS files)
 set(VKH_QUICK malformed_files leaks)
 set(VKH_QUICK_PROGRAMS vkh_leak_probe vkh_leaky_driver)
@@ -62,11 +63,28 @@ get_property(all DIRECTORY PROPERTY TESTS)
 list(REMOVE_ITEM all ${VKH_QUICK})
 vkh_label(full ${all})
 # Each took a minute or more in the sanitizer tree: starts of the program by the dozen, whose code is
-# also run by tests of one start, and searches of the same kernels with more cases.
+# also run by tests of one start, and searches of the same kernels with more cases. Of the suites that
+# run natively too, closest points stand for all.
 vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
                   vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
                   python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs simplify_program
-                  align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test)
+                  align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test
+                  align_test native_solver_test metrics_natively survey_natively wave_survey_natively simplify_natively cells_natively answer_json_test
+                  pages packed_glb native_program files_by_program pair_schema python_progress python_metrics python_align python_field python_simplify
+                  fine_test placed_limits_test closest_test self_test_test cells_test)
+# Arithmetic in exact numbers, and kernels beside their twins on the processor: the sanitizers see the tests alone.
+vkh_label(nightly polygon_test round_trip_test decimal_test orientation_test printed_numbers_test)
+foreach(source IN LISTS VKH_TEST_SOURCES)
+  get_filename_component(name ${source} NAME_WE)
+  if(source MATCHES "/verification/math/|/kernel_[a-z_]*_test")
+    vkh_label(nightly ${name})
+  endif()
+  get_property(labels TEST ${name} PROPERTY LABELS)
+  if(VKH_PROGRAM_${name} STREQUAL name AND labels MATCHES "nightly")
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(vkh_nightly ${name})
+  endif()
+endforeach()
 # The programs of these tests, and the readers' fuzzer: all that tools/test builds of this tree without --full.
 list(REMOVE_DUPLICATES VKH_QUICK_PROGRAMS)
 add_custom_target(vkh_quick DEPENDS ${VKH_QUICK_PROGRAMS} read_fuzz)
