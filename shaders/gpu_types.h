@@ -125,9 +125,9 @@ VKH_CONST uint kUseAll = kUseCentroid | kUseParentSamples | kUseToleranceCull | 
 VKH_CONST float kThinQuality = 0.25f;       // altitude over longest edge: docs/method.md, eq. 3
 VKH_CONST float kPaperThinQuality = 0.06f;  // where the frontier may be sorted, as the paper has it
 
-// The reasons for closing a candidate: their only list. Control::culled counts each; the name is
-// what JSON and Python have. wave_bound closes by those up to kCullLowerRaised, so a new bound
-// stands before it.
+// The reasons for closing a candidate on a device; host/native/candidate.h has the processor's.
+// Control::culled counts each; the name is what JSON and Python have. wave_bound closes by those up
+// to kCullLowerRaised, so a new bound stands before it.
 #define VKH_CULLS(X)                                                                      \
   X(kCullExact, 0u, exact)                                                                \
   X(kCullU1, 1u, u1)                                                                      \

@@ -1,5 +1,5 @@
-// The cascade of upper bounds on h(T, B), cheapest first: exact case, u1, u2, ha, u3, u4
-// (docs/method.md, section 3; equations are cited by its numbers).
+// The cascade of upper bounds on h(T, B), cheapest first: exact case, u1, u2, ha, u3
+// (docs/method.md, section 3; equations are cited by its numbers). u4 stands in shaders/paper/.
 //
 // T is a sub-triangle of A as computed in a local frame, S a triangle of B in the same frame. Each
 // bound holds in exact arithmetic for the computed T; the caller adds LocalCorners::slack for the
