@@ -1,6 +1,6 @@
 # The sources of a room are compiled as one translation unit: most of their cost is the standard
 # library, which is then read and instantiated once (docs/log/build.md). So a name in an anonymous
-# namespace has one meaning in its room. The test `clang` reads each file by itself
+# namespace has one meaning in its room. The test `clang_all` reads each file by itself
 # (tools/lint/alone.py), and clang_tidy reads the units.
 option(VKH_UNITY "Compile each room as one translation unit" ON)
 

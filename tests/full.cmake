@@ -24,10 +24,10 @@ if(NOT VKH_SANITIZE)
                  proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
                  python_life python_fork python_lost python_distances python_distances_life python_meshes python_metrics
                  metrics solver_oracle_test cgal_test pages)
-  # A minute and more each: the same kernels with more cases, compiled for another card or system, and
-  # the examples of clusters.
+  # A minute and more each: the same kernels with more cases, compiled for another card or system, fits on a device (they
+  # are made natively by default), the page in a browser, and the examples of clusters.
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
-                    proven_placing batch_killed clang_all driver_lavapipe128_more platform_arm64 platform_libcxx
+                    proven_placing batch_killed clang_all align_test page_browser real_devices vulkan_faults_of_sets driver_lavapipe128_more platform_arm64 platform_libcxx
                      platform_arm64_more platform_nehalem platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
                      slurm dask clusters points_many)
   # A program of its own whose one test is not a default one is built by vkh_full.
@@ -69,7 +69,7 @@ vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_
                   vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
                   python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs simplify_program
                   align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test
-                  align_test native_solver_test metrics_natively survey_natively wave_survey_natively simplify_natively cells_natively answer_json_test
+                  align_test native_solver_test metrics_natively survey_natively wave_survey_natively simplify_natively cells_natively align_natively answer_json_test
                   pages packed_glb native_program files_by_program pair_schema python_progress python_metrics python_align python_field python_simplify
                   fine_test placed_limits_test closest_test self_test_test cells_test)
 # Arithmetic in exact numbers, and kernels beside their twins on the processor: the sanitizers see the tests alone.

@@ -38,7 +38,7 @@ vkh_folder(app schema batch batch_folders batch_killed pair_schema many_pairs ex
                see points points_many effort metrics align completion recipes pages packed_glb slurm clusters)
 vkh_folder(verification vulkan_faults_of_sets guarded fallbacks barriers real_devices vkh_check certificates placing regrouped
                         mutation_quick leaks)
-vkh_folder(lint tables lists layer_functions rooms links style readme benchmark_page clang clang_all clang_tidy)
+vkh_folder(lint tables lists layer_functions rooms links style readme benchmark_page clang_all clang_tidy)
 
 foreach(test IN LISTS all)
   get_property(labels TEST ${test} PROPERTY LABELS)

@@ -22,11 +22,11 @@ def cached(build: pathlib.Path) -> dict[str, str]:
     return values
 
 
-def configure(build: pathlib.Path, source: pathlib.Path, units: bool = False) -> pathlib.Path:
-    """Returns a folder whose compile_commands.json has every source file of the build, or with `units` its units."""
-    folder, values = build / ("units" if units else "alone"), cached(build)
+def configure(build: pathlib.Path, source: pathlib.Path) -> pathlib.Path:
+    """Returns a folder whose compile_commands.json has every source file of the build."""
+    folder, values = build / "alone", cached(build)
     options = [f"-D{name}={values[name]}" for name in CACHED if values.get(name)]
-    subprocess.run(["cmake", "-S", source, "-B", folder, "-G", values["CMAKE_GENERATOR"], *options, f"-DVKH_UNITY={'ON' if units else 'OFF'}", "-DVKH_PRECOMPILE=OFF",
+    subprocess.run(["cmake", "-S", source, "-B", folder, "-G", values["CMAKE_GENERATOR"], *options, "-DVKH_UNITY=OFF", "-DVKH_PRECOMPILE=OFF",
                     f"-DVKH_KERNELS={build}/generated/kernels"], check=True, stdout=subprocess.DEVNULL)
     commands = folder / "compile_commands.json"
     entries = json.loads(commands.read_text())

@@ -1,7 +1,6 @@
-"""Clang reads the product without a warning, room by room as it is compiled (cmake/Unity.cmake).
+"""Clang reads each source by itself without a warning. The product's units are read by clang_tidy_test.py, with the same warnings.
 
-usage: clang_test.py BUILD SOURCE [--all]. --all: each source by itself, those of tests and tools, too.
-Exit code 77: no clang here.
+usage: clang_test.py BUILD SOURCE. Exit code 77: no clang here.
 """
 
 import concurrent.futures
@@ -14,8 +13,6 @@ import subprocess
 import sys
 
 import alone
-
-PRODUCT = ("CMakeFiles", "host", "check", "examples")  # the engine and the checker are targets of the top folder
 
 
 def command_of(entry: dict, compilers: dict) -> list[str]:
@@ -42,12 +39,6 @@ def compilers() -> dict | None:
     return {language: [path] for language, path in found.items()} if all(found.values()) else None
 
 
-def folder_of(entry: dict) -> str:
-    """The top folder of its object file, which is that of its target."""
-    words = shlex.split(entry["command"])
-    return words[words.index("-o") + 1].split("/")[0]
-
-
 def check(entry: dict, compilers: dict) -> str:
     done = subprocess.run(command_of(entry, compilers), cwd=entry["directory"], capture_output=True, text=True)
     return done.stderr if done.returncode else ""
@@ -59,13 +50,12 @@ def main() -> int:
     if not found:
         print("clang_test: skipped, no clang")
         return 77
-    is_alone = "--all" in sys.argv[3:]
-    build = alone.configure(build, source, units=not is_alone)
+    build = alone.configure(build, source)
     entries = json.loads((build / "compile_commands.json").read_text())
     # Embedded kernels are arrays of numbers, and those of the build folder.
-    entries = [e for e in entries if "generated" not in e["file"] and (is_alone or folder_of(e) in PRODUCT)]
+    entries = [e for e in entries if "generated" not in e["file"]]
     unique = list({e["file"]: e for e in entries}.values())
-    if len(unique) < (200 if is_alone else 20):
+    if len(unique) < 200:
         print(f"clang_test: {build} compiles {len(unique)} files of {source}: too few to be all")
         return 1
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -1,4 +1,5 @@
-"""clang-tidy 14 (.clang-tidy) finds nothing in the product and its examples, as the build folder compiles them.
+"""clang-tidy 14 (.clang-tidy) finds nothing in the product and its examples, as the build folder compiles them, nor does
+clang with the build's warnings.
 
 Rooms are read as the units that the build makes of them (cmake/Unity.cmake): most of the cost is
 the standard library's headers. clang_test.py reads each file by itself.
@@ -26,9 +27,10 @@ BAIT = """\
 #include <vector>
 int f(int a, int b, int c, int d, int e, int g) { return a + b + c + d + e; }
 long long wide(int a, int b) { return a * b; }
+int hidden(int a) { for (int i = 0; i < a; ++i) { int a = i; a += i; } return a; }
 void copies(std::vector<std::string> all) { for (const std::string one : all) (void)one.size(); }
 """
-BITES = ("clang-diagnostic-unused-parameter", "readability-function-size", "bugprone-implicit-widening-of-multiplication-result", "performance-for-range-copy")
+BITES = ("clang-diagnostic-unused-parameter", "readability-function-size", "bugprone-implicit-widening-of-multiplication-result", "performance-for-range-copy", "clang-diagnostic-shadow")
 
 
 def program() -> str | None:
@@ -69,7 +71,7 @@ def missed(source: pathlib.Path) -> list[str]:
         file = pathlib.Path(folder) / "bait.cpp"
         file.write_text(BAIT)
         done = subprocess.run(command(source, [str(file)], f"--config-file={source / '.clang-tidy'}")
-                              + ["--", "-std=c++20", "-Wextra"], capture_output=True, text=True)
+                              + ["--", "-std=c++20", "-Wextra", "-Wshadow"], capture_output=True, text=True)
         return [check for check in BITES if check not in done.stdout] if done.returncode else list(BITES)
 
 
