@@ -33,9 +33,9 @@ foreach(test IN LISTS all)
 endforeach()
 vkh_folder(files malformed_files bodies files_by_program)
 vkh_folder(engine shader_contract embed_shaders float_places report_glsl api_c11 compile_amd)
-vkh_folder(solve metrics_long placed_limits_long)
+vkh_folder(solve metrics_long placed_limits_long points_many)
 vkh_folder(app schema batch batch_folders batch_killed pair_schema many_pairs exit_codes native_program folder_pairs simplify_program doctor pipelines
-               see points points_many effort metrics align completion recipes pages packed_glb slurm clusters)
+               see points effort metrics align completion recipes pages packed_glb slurm clusters)
 vkh_folder(verification vulkan_faults_of_sets guarded fallbacks barriers real_devices vkh_check certificates placing regrouped
                         mutation_quick leaks)
 vkh_folder(lint tables lists layer_functions rooms links style readme benchmark_page clang_all clang_tidy)

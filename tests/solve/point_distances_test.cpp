@@ -1,13 +1,18 @@
-// A survey's points: the bounds that the host measures, against exact arithmetic, and the figures
-// that they make narrower.
+// Points in place of A or B, against exact arithmetic: h, the bounds that the host measures of a
+// survey's points, and figures, also of those alone that are near enough. VKH_POINTS_COUNT: how
+// many clouds (nightly: 1000).
 #include "host/survey/point_distances.h"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <vector>
 
 #include "tests/shapes/shapes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/exact.h"
 #include "vkhausdorff/solver.h"
@@ -66,7 +71,7 @@ std::vector<Mesh> surfaces() {
 
 TEST_CASE("bounds of points hold in exact arithmetic, and are as narrow as floats") {
   for (const Mesh& b : surfaces()) {
-    const Mesh a = points_about(b, 7, 150);
+    const Mesh a = points_about(b, 7, kIsSanitized ? 30 : 150);
     const FramedPair framed = frame_pair(a, b);
     const SurveyedPair pair{
         a, b, framed.frame, 0, farthest_in(join(framed.box_a, framed.box_b), 0), true};
@@ -116,18 +121,20 @@ SurveyResult surveyed(const Mesh& a, const Mesh& b, size_t effort) {
 double width(const Enclosure& e) { return e.upper - e.lower; }
 
 TEST_CASE("points are measured once each, and figures get narrower with effort") {
+  if (is_native()) return;  // its first bounds of points are as narrow
   const Mesh b = height_field(16, 1);
   Random random(12);
   std::vector<DVec3> points;
-  for (size_t i = 0; i < 600; ++i)
+  const size_t half = kIsSanitized ? 60 : 300;
+  for (size_t i = 0; i < 2 * half; ++i)
     points.emplace_back(random.range(-1, 1), random.range(-1, 1), random.range(-0.1, 0.2));
   const Mesh a = make_points("points", points);
-  const SurveyResult none = surveyed(a, b, 0), some = surveyed(a, b, 400),
+  const SurveyResult none = surveyed(a, b, 0), some = surveyed(a, b, half),
                      all = surveyed(a, b, 1'000'000);
   CHECK(none.ended == SurveyEnd::kEffort);
   CHECK(none.bounded == points.size());
   CHECK(some.ended == SurveyEnd::kEffort);
-  CHECK(some.bounded == points.size() + 200);
+  CHECK(some.bounded == points.size() + half / 2);
   CHECK(all.ended != SurveyEnd::kEffort);
   CHECK(all.bounded <= 2 * points.size());
   double sum = 0;
@@ -147,6 +154,121 @@ TEST_CASE("points are measured once each, and figures get narrower with effort")
   CHECK(width(some.statistics->mean) < 0.9 * width(none.statistics->mean));
   CHECK(width(all.statistics->mean) < 0.4 * width(none.statistics->mean));
   CHECK(all.statistics->mean.lower == surveyed(a, b, 1'000'000).statistics->mean.lower);
+}
+
+uint64_t cloud_count() {
+  const char* asked = std::getenv("VKH_POINTS_COUNT");
+  if (asked != nullptr) return std::strtoull(asked, nullptr, 10);
+  return kIsSanitized ? 8 : 50;
+}
+
+/// Random triangles, with and without area, or a sheet.
+Mesh any_surface(uint64_t seed) {
+  const uint32_t some = 1 + Random(seed).below(40);
+  if (seed % 3 == 0) return soup(seed, some);
+  if (seed % 3 == 1) return degenerate_faces(seed, some);
+  return noisy(height_field(1 + some % 6, 1), 0.1, seed);
+}
+
+/// The square of the largest distance of a vertex of A from B.
+Rational farthest_squared(const Mesh& a, const Mesh& b) {
+  Rational most = 0;
+  for (const DVec3& v : a.vertices) most = std::max(most, squared_distance_exact(v, b));
+  return most;
+}
+
+TEST_CASE("h of a cloud is the distance of its farthest point, and of a surface it is no less") {
+  for (uint64_t i = 0; i < cloud_count(); ++i) {
+    CAPTURE(i);
+    const Mesh b = any_surface(i), cloud = points_about(b, i, 2 + Random(i).below(120));
+    const Report there = solver().distance(cloud, b);
+    const Rational squared = farthest_squared(cloud, b);
+    CHECK(is_lower_bound(there.lower, squared));
+    CHECK(is_upper_bound(there.upper, squared));
+    CHECK(there.status == Status::kClosed);
+    CHECK(is_upper_bound(solver().distance(b, cloud).upper, farthest_squared(b, cloud)));
+  }
+}
+
+// CloudCompare's issue 2247.
+TEST_CASE("a point that is hardly over a triangle has its distance, and the same bits each time") {
+  const Mesh flat = joined(single_triangle({0, 0, 0}, {1, 0, 0}, {0.3, 0.9, 0}),
+                           single_triangle({0.4, 0.3, 8e-6}, {0.4, 0.3, 8e-6}, {0.4, 0.3, 8e-6}));
+  SolveOptions options;
+  options.tolerance = 1e-9;
+  options.tolerance_is_absolute = true;
+  for (const Mesh& both : {flat, translated(rotated(flat, {0, 1, 0}, 0.9), {1000, 1000, 1000})}) {
+    const Mesh over = make_points("over", {both.vertices.back()});
+    const Mesh plane = make_mesh("plane", both.vertices, {{0, 1, 2}});
+    const Report first = solver().distance(over, plane, options);
+    const Rational squared = farthest_squared(over, plane);
+    CHECK(is_lower_bound(first.lower, squared));
+    CHECK(is_upper_bound(first.upper, squared));
+    CHECK(first.upper - first.lower < 1e-8);
+    for (int again = 0; again < (kIsSanitized ? 1 : 10); ++again)
+      check_same(solver().distance(over, plane, options), first);
+  }
+}
+
+void check_within(const Enclosure& e, double truth, double width) {
+  INFO(truth, " in [", e.lower, ", ", e.upper, "]");
+  CHECK(e.lower <= truth * (1 + 1e-12));
+  CHECK(e.upper >= truth * (1 - 1e-12));
+  CHECK(e.upper - e.lower <= width);
+}
+
+/// Checks the figures of points at these distances, which ascend.
+void check_figures(const Statistics& found, const std::vector<double>& kept) {
+  const double count = static_cast<double>(kept.size());
+  double sum = 0, squares = 0;
+  for (const double h : kept) sum += h, squares += h * h;
+  check_within(found.mean, sum / count, 2e-4);
+  check_within(found.rms, std::sqrt(squares / count), 2e-4);
+  const auto near = std::upper_bound(kept.begin(), kept.end(), 0.1) - kept.begin();
+  check_within(found.bands[0].share, static_cast<double>(near) / count, 1e-9);
+  for (const Percentile& p : found.percentiles) {
+    const double place = std::ceil(p.share * count - 1e-9);
+    check_within(p.distance, kept[static_cast<size_t>(place) - 1], INFINITY);
+  }
+}
+
+/// Heights over a plane: none, one that floats hold, any, and far ones.
+std::vector<double> some_heights(Random& random) {
+  std::vector<double> heights;
+  for (uint32_t i = 1 + random.below(60); i > 0; --i) {
+    const double any[] = {0, 0.125, random.unit(), random.range(5, 50)};
+    heights.push_back(any[random.below(4)]);
+  }
+  std::sort(heights.begin(), heights.end());
+  return heights;
+}
+
+TEST_CASE("figures weigh points alike, and leave out what is farther than was asked") {
+  const Mesh b = big_plane(9.0);
+  Random random(43);
+  for (int i = 0; i < (kIsSanitized ? 6 : 12); ++i) {
+    std::vector<double> heights = some_heights(random);
+    std::vector<DVec3> points;
+    for (const double h : heights) points.emplace_back(0.1, 0.2, h);
+    const double most = std::vector<double>{INFINITY, 0.2, 1.5, 20, 0.003, 100}[i % 6];
+    CAPTURE(most);
+    SurveyOptions options;
+    options.statistics = true;
+    options.mean_tolerance = 1e-5;
+    options.bands = {0.1};
+    if (std::isfinite(most)) options.max_distance = Limit{most, most};
+    const Statistics found =
+        *survey_mesh(solver(), {make_points("A", points), b}, options).statistics;
+    CHECK(found.points == points.size());
+    CHECK(found.area == 0);
+    const size_t all = heights.size();
+    std::erase_if(heights, [&](double h) { return h > most; });
+    REQUIRE(found.kept.has_value() == std::isfinite(most));
+    if (found.kept)
+      check_within(*found.kept, static_cast<double>(heights.size()) / static_cast<double>(all),
+                   1e-12);
+    if (!heights.empty()) check_figures(found, heights);
+  }
 }
 
 }  // namespace
