@@ -1,6 +1,7 @@
-"""`metrics` and `batch --metrics`: figures of closed forms in the table, in JSON, in lines and in CSV, and what is refused.
+"""`metrics` and `batch --metrics`: figures in the table, in JSON, in lines and in CSV, codes, and what is refused.
 
 usage: metrics_test.py PROGRAM
+That figures are true, and as narrow alone as among all: tests/solve/metrics_test.cpp. One pair of squares shows here that each figure stands by its name.
 """
 
 import csv
@@ -48,12 +49,10 @@ class Metrics(unittest.TestCase):
                 self.assertEqual((at[name]["lower"], at[name]["upper"], at[name]["unit"]), (share, share, None))
 
     def test_json(self):
-        for unit in (None, "mm"):
-            words = ("--unit", unit) if unit else ()
-            answer = json.loads(self.run_program("metrics", "a.obj", "b.obj", "--bands", "0.2abs,30%", "--json", *words).stdout)
-            self.check_lifted(answer["metrics"], unit, 95)
-            self.assertEqual((answer["command"], len(answer["directions"])), ("metrics", 2))
-            self.assertEqual(answer["interval"]["upper"], answer["metrics"]["hausdorff"]["upper"])
+        answer = json.loads(self.run_program("metrics", "a.obj", "b.obj", "--bands", "0.2abs,30%", "--json", "--unit", "mm").stdout)
+        self.check_lifted(answer["metrics"], "mm", 95)
+        self.assertEqual((answer["command"], len(answer["directions"])), ("metrics", 2))
+        self.assertEqual(answer["interval"]["upper"], answer["metrics"]["hausdorff"]["upper"])
 
     def test_table(self):
         text = self.run_program("metrics", "a.obj", "b.obj", "--percentile", "90", "--bands", "0.2abs,1abs", "--unit", "mm").stdout
@@ -78,36 +77,6 @@ class Metrics(unittest.TestCase):
         text = self.run_program(*words, "--figures", "hd95,assd").stdout
         self.assertRegex(text.splitlines()[0], r"^hd95 0\.2\d*, assd 0\.2\d*(?:\. |$)")
         self.assertNotIn("chamfer", text)
-
-    def test_shares_alone_cost_no_more_cells_than_faces_where_these_decide(self):
-        words = ("metrics", "a.obj", "b.obj", "--bands", "0.2abs,0.3abs", "--json", "--figures", "f1")
-        answer = json.loads(self.run_program(*words).stdout)
-        self.assertEqual([direction["survey"]["bounded"] for direction in answer["directions"]], [2, 2])
-        self.assertEqual([at["f1"]["lower"] for at in answer["metrics"]["within"]], [0, 1])
-
-    def test_one_figure_is_as_narrow_as_among_all(self):
-        for name, cells, height in (("low", 3, 0.1), ("high", 4, 0.25)):
-            side = cells + 1
-            rows = [f"v {i / cells} {j / cells} {height * ((7 * i + 5 * j + i * j) % 4) / 4}" for j in range(side) for i in range(side)]
-            corners = [j * side + i + 1 for j in range(cells) for i in range(cells)]
-            rows += [f"f {a} {a + 1} {a + side + 1} {a + side}" for a in corners]
-            (self.folder / f"{name}.obj").write_text("\n".join(rows) + "\n")
-        (self.folder / "hills.csv").write_text("id,a,b\nhills,low.obj,high.obj\n")
-        words = ("--bands", "0.05abs", "--percentile", "90", "--polygons", "fan")
-        whole = json.loads(self.run_program("metrics", "low.obj", "high.obj", *words, "--json").stdout)["metrics"]
-        self.assertTrue(whole["met"])
-        for figures in (*LENGTHS, *SHARES, "hd90,f1", "hd90,hausdorff", "hd90_pooled,recall"):
-            alone = json.loads(self.run_program("metrics", "low.obj", "high.obj", *words, "--figures", figures, "--json").stdout)["metrics"]
-            self.batch("hills", "--metrics", *words, "--figures", figures)
-            of_a_line = json.loads((self.folder / "hills.jsonl").read_text())["metrics"]
-            (self.folder / "hills.jsonl").unlink()
-            self.assertEqual(alone["figures"], of_a_line["figures"])
-            for name in alone["figures"]:
-                at = [(m["within"][0] if name in SHARES else m)[name] for m in (alone, of_a_line, whole)]
-                enough = 0.00101 if name in SHARES else 0.041 * at[2]["upper"]
-                for one in at[:2]:
-                    self.assertTrue(one["lower"] <= at[2]["upper"] and at[2]["lower"] <= one["upper"], name)
-                    self.assertLessEqual(one["upper"] - one["lower"], max(enough, at[2]["upper"] - at[2]["lower"]), name)
 
     def test_normals(self):
         (self.folder / "wall.obj").write_text("v 0 0 -1\nv 0 1 -1\nv 0 1 1\nv 0 0 1\nf 1 2 3\nf 1 3 4\n")
@@ -199,6 +168,8 @@ class Metrics(unittest.TestCase):
         said = self.batch("jump", "--metrics", "--bands", "0.25abs", "--effort", "2000", code=3).stdout
         self.assertEqual(said.splitlines()[0], "0 of 1 pairs have all figures as narrow as asked; 1 with a figure that is wider")
         self.assertIn("WIDER THAN ASKED  [", said)
+        said = self.batch("jump", "--metrics", "--bands", "0.25abs", "--effort", "2000", "--figures", "hd95", "--resume").stdout
+        self.assertEqual(said.splitlines()[0], "1 of 1 pairs have all figures as narrow as asked")
 
     def test_rows_that_contradict_metrics(self):
         (self.folder / "odd.csv").write_text("id,a,b,max,symmetric\nlimit,a.obj,b.obj,1abs,\none way,a.obj,b.obj,,false\nline,a.obj,line.obj,,\n")
