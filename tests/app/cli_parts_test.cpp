@@ -9,6 +9,7 @@
 
 #include "host/answer/merge_parts.h"
 #include "tests/shapes/shapes.h"
+#include "tests/support/answer_line.h"
 #include "tests/support/program.h"
 
 namespace {
@@ -43,13 +44,13 @@ json part(size_t index, size_t count, const Words& more = {}) {
   const Outcome outcome = distance(Words{"--json", "--part", which} + more);
   CHECK(outcome.exit_code == 0);
   CHECK(outcome.err == "");
-  return json::parse(outcome.out);
+  return answer_in(outcome.out);
 }
 
 }  // namespace
 
 TEST_CASE("all parts are A, and say which they are") {
-  const json whole = json::parse(distance({"--json"}).out);
+  const json whole = answer_in(distance({"--json"}).out);
   std::vector<vkh::WrittenAnswer> parts;
   for (size_t i = 0; i < 3; ++i) {
     const json one = part(i, 3, {"--verify"});
@@ -120,23 +121,23 @@ TEST_CASE("what cannot be had of a part") {
 TEST_CASE("--time leaves a true interval of a part, which says so") {
   const Outcome outcome = distance({"--part", "0/3", "--time", "1ms", "--json"});
   CHECK(outcome.exit_code == 3);
-  const json one = json::parse(outcome.out);
+  const json one = answer_in(outcome.out);
   CHECK(one["part"]["count"] == 3);
   CHECK(one["words"].get<std::string>().find("part 0/3 of A") != std::string::npos);
 }
 
 TEST_CASE("several devices: two of one, all, and what cannot be") {
-  const json alone = json::parse(distance({"--json"}).out);
+  const json alone = answer_in(distance({"--json"}).out);
   const Outcome two = distance({"--device", "0,0", "--json", "--verify"});
   CHECK(two.exit_code == 0);
-  const json both = json::parse(two.out);
+  const json both = answer_in(two.out);
   CHECK(both["status"] == "closed");
   CHECK(both["more_devices"].size() == 1);
   CHECK(both["more_devices"][0] == both["device"]);
   CHECK(hex(both, "lower_hex") <= hex(alone, "upper_hex"));
   CHECK(hex(both, "upper_hex") >= hex(alone, "lower_hex"));
   CHECK(both["directions"][0]["verified"]["faces"]["whole"] == 1152);
-  const json all = json::parse(distance({"--device", "all", "--json"}).out);
+  const json all = answer_in(distance({"--device", "all", "--json"}).out);
   CHECK(all["status"] == "closed");
   CHECK(part(1, 2, {"--device", "0,0"})["part"]["index"] == 1);
   CHECK(distance({"--device", "0,"}).exit_code == 2);
