@@ -167,13 +167,14 @@ class Drawn(Folders):
         self.assertIn("Colours of lengths have the same range in every picture: 0 to 3abs.", self.index().text)
 
     def test_odd_ids_have_files_of_their_own(self):
-        ids = ["x", "X", "../x", "/x", "x/../../x", "a b", "a  b", "a_b", "index", "INDEX", "con", "COM1", "-", "--", "x-b", "ü", "é", "<b>&\"'", "x.png", "x\ny",
-               "n" * 300, "n" * 301, "x-0123456789abcdef", "\u202etxt", "."]
-        self.make_named(ids, symmetric=True)
+        ids = ["x", "X", "../x", "x/../../x", "a  b", "a_b", "INDEX", "con", "-", "x-b", "ü", "<b>&\"'", "x\ny", "n" * 300, "n" * 301, "\u202etxt", "."]
+        self.make_named(ids)
+        rows = [json.loads(line) for line in (self.folder / "list.jsonl").read_text().splitlines()]
+        self.write_list([{**row, "symmetric": row["id"] in "xX"} for row in rows])
         self.batch("--image-dir", "d")
         names = [name for name in self.files() if name != "index.html"]
-        self.assertEqual(len(names), 2 * len(ids))
-        self.assertEqual(len({name.lower() for name in names}), 2 * len(ids), "nor are two the same where letters' sizes do not count")
+        self.assertEqual(len(names), len(ids) + 2)
+        self.assertEqual(len({name.lower() for name in names}), len(names), "nor are two the same where letters' sizes do not count")
         for name in names:
             self.assertRegex(name, r"\A[A-Za-z0-9_][A-Za-z0-9_-]{0,90}\.png\Z")
             self.assertNotIn(name.split(".")[0].lower(), ("con", "com1", "index"))
@@ -259,7 +260,7 @@ class Resumed(Folders):
         self.assertEqual((self.rows()["a"]["images"], self.rows()["b"]["images"]), ([], ["b.png"]))
 
     def test_an_interrupted_batch_leaves_an_index(self):
-        self.make_pairs(40, size=12)
+        self.make_pairs(16, size=12)
         running = subprocess.Popen([PROGRAM, "batch", "list.jsonl", "--out", "out.jsonl", "--image-dir", "d", *SIZE], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         while not (self.folder / "out.jsonl").exists() or not (self.folder / "out.jsonl").read_bytes():
@@ -269,11 +270,11 @@ class Resumed(Folders):
         err = running.communicate(timeout=60)[1]
         self.assertEqual(running.returncode, 3, err)
         done = [line["id"] for line in self.results()]
-        self.assertTrue(0 < len(done) < 40)
+        self.assertTrue(0 < len(done) < 16)
         self.assertEqual(sorted(self.rows()), sorted(done))
-        self.assertIn(f"{40 - len(done)} left", self.index().text)
+        self.assertIn(f"{16 - len(done)} left", self.index().text)
         self.batch("--image-dir", "d", "--resume")
-        self.assertEqual(len([row for row in self.index().rows[1:] if row["images"]]), 40)
+        self.assertEqual(len([row for row in self.index().rows[1:] if row["images"]]), 16)
 
 
 class Refused(Folders):
@@ -322,17 +323,17 @@ class Refused(Folders):
 class SideBySide(Folders):
     @unittest.skipIf(os.environ.get("VKH_SANITIZED"), "the layer's own leaks cannot be told apart (tools/test)")
     def test_the_validation_layer_is_silent(self):
-        self.make_named([str(i) for i in range(10)], symmetric=True)
-        done = self.batch("--image-dir", "d", "--report-dir", "d", "--together", "4", "--lanes", "3",
+        self.make_named([str(i) for i in range(4)], symmetric=True)
+        done = self.batch("--image-dir", "d", "--report-dir", "d", "--together", "2", "--lanes", "2",
                           env={"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
                                "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"})
         for text in (done.stdout, done.stderr):
             for word in ("VUID", "SYNC-HAZARD", "Validation"):
                 self.assertNotIn(word, text)
-        self.assertEqual(len(self.files()), 31)
+        self.assertEqual(len(self.files()), 13)
         alone = self.batch("--image-dir", "e", "--report-dir", "e", "--together", "1", "--lanes", "1", out="alone.jsonl")
         self.assertNotIn("vkhausdorff: ", alone.stderr)  # but perhaps lines of progress
-        for i in range(10):
+        for i in range(4):
             self.assertEqual((self.folder / "d" / f"{i}.png").read_bytes(), (self.folder / "e" / f"{i}.png").read_bytes())
 
 

@@ -1,4 +1,4 @@
-"""batch and merge as newcomers type them: lists of spreadsheets, outputs in the wrong place, an interrupted batch, shards.
+"""batch and merge as newcomers type them: lists of spreadsheets, outputs in the wrong place, shards.
 
 usage: many_pairs_test.py PROGRAM
 """
@@ -99,19 +99,6 @@ class ManyPairs(unittest.TestCase):
         self.assertEqual(list(self.results("out.jsonl")), ["x"])
         self.assertIn("sub/pipe: is no file", self.run_program("merge", "sub/pipe", "--out", "all.jsonl", code=4))
         self.assertIn("sub: is no file", self.run_program("merge", "sub", "--out", "all.jsonl", code=4))
-
-    def test_what_was_begun_goes_on(self):
-        self.write_list()
-        self.run_program("batch", "list.csv", "--out", "whole.jsonl")
-        self.run_program("merge", "whole.jsonl", "--out", "whole", "--reproducible")
-        self.assertIn("has results: add --resume", self.run_program("batch", "list.csv", "--out", "whole.jsonl", code=2))
-        begun = (self.folder / "whole.jsonl").read_bytes()
-        for size in (1, begun.index(b"\n"), len(begun) // 2, len(begun) - 1):
-            with self.subTest(size=size):
-                (self.folder / "begun.jsonl").write_bytes(begun[:size])
-                self.run_program("batch", "list.csv", "--out", "begun.jsonl", "--resume")
-                self.run_program("merge", "begun.jsonl", "--out", "begun", "--reproducible")
-                self.assertEqual((self.folder / "begun").read_bytes(), (self.folder / "whole").read_bytes())
 
     def github(self, *words, code):
         summary = self.folder / "summary.md"

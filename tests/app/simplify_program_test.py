@@ -2,6 +2,7 @@
 certificate; nothing is written where nothing was found; --json fits docs/schema/simplify.schema.json.
 
 usage: simplify_program_test.py PROGRAM SOURCE [VKH_CHECK]
+What is found of any mesh, and how few faces it has: tests/solve/simplify_test.cpp.
 """
 
 import json
@@ -22,7 +23,7 @@ except ImportError:
 
 PROGRAM, SOURCE = (pathlib.Path(word).resolve() for word in sys.argv[1:3])
 CHECK = pathlib.Path(sys.argv[3]).resolve() if len(sys.argv) > 3 else None
-STEPS = 32
+STEPS = 20  # coordinates that no float32 has
 
 
 def bump(x, y):
@@ -30,7 +31,7 @@ def bump(x, y):
 
 
 def wavy(offset=0.0):
-    """A wavy sheet of 2,048 faces as OBJ, whose coordinates are no float32."""
+    """A wavy sheet of 800 faces as OBJ."""
     rows = [f"v {offset + i / STEPS!r} {j / STEPS!r} {bump(i / STEPS, j / STEPS)!r}" for i in range(STEPS + 1) for j in range(STEPS + 1)]
     for i in range(STEPS):
         for j in range(STEPS):
@@ -62,10 +63,10 @@ class Simplify(unittest.TestCase):
         for name in ("b.ply", "b.obj", "b.stl", "b.glb"):
             with self.subTest(name):
                 first, *rest = self.run_program("simplify", "a.obj", "--max", "0.01abs", "--out", name).stdout.splitlines()
-                found = re.fullmatch(r"([\d,]+) of 2,048 faces, proven within 0\.01 of A, both ways "
+                found = re.fullmatch(r"(\d+) of 800 faces, proven within 0\.01 of A, both ways "
                                      r"\(largest deviation (0\.00\d+)\)", first)
                 self.assertTrue(found, first)
-                self.assertLess(int(found[1].replace(",", "")), 1024)
+                self.assertLess(int(found[1]), 500)
                 self.assertTrue(any("UVs, normals and colours" in row for row in rest))
                 self.check_gate("a.obj", name, "0.01abs", "--symmetric")
         self.assertEqual(self.files(), ["a.obj", "b.glb", "b.obj", "b.ply", "b.stl"])
@@ -85,6 +86,8 @@ class Simplify(unittest.TestCase):
 
     def test_a_certificate_is_of_the_file_as_written(self):
         self.run_program("simplify", "a.obj", "--max", "0.01abs", "--out", "b.stl", "--certificate", "b.vhc")
+        data = (self.folder / "b.stl").read_bytes()
+        self.assertEqual(len(data), 84 + 50 * struct.unpack("<I", data[80:84])[0])
         if CHECK is None:
             self.skipTest("no vkh_check")
         done = subprocess.run([CHECK, "b.vhc", "a.obj", "b.stl"], cwd=self.folder, capture_output=True, text=True, timeout=300)
@@ -94,7 +97,7 @@ class Simplify(unittest.TestCase):
         words = ["simplify", "a.obj", "--max", "0.05abs", "--out", "l.ply", "--levels", "3", "--ratio", "0.4", "--json"]
         answer = json.loads(self.run_program(*words).stdout)
         self.assertEqual([file["path"] for file in answer["files"]], ["l-1.ply", "l-2.ply", "l-3.ply"])
-        faces = [2048, *[file["faces"] for file in answer["files"]]]
+        faces = [800, *[file["faces"] for file in answer["files"]]]
         for finer, coarser in zip(faces, faces[1:]):
             self.assertLessEqual(coarser, 0.4 * finer + 1)
         for file in answer["files"]:
@@ -103,7 +106,7 @@ class Simplify(unittest.TestCase):
     def test_a_chain_says_why_it_is_short_and_leaves_no_level_of_another(self):
         words = ["simplify", "a.obj", "--out", "l.ply", "--ratio", "0.4"]
         whole = json.loads(self.run_program(*words, "--max", "0.05abs", "--levels", "3", "--json").stdout)
-        self.assertRegex(whole["words"], r"^3 levels, [\d,]+ to \d+ of 2,048 faces, proven within 0\.05 of A, both ways$")
+        self.assertRegex(whole["words"], r"^3 levels, \d+ to \d+ of 800 faces, proven within 0\.05 of A, both ways$")
         files = {path.name: path.read_bytes() for path in self.folder.iterdir()}
         said = self.run_program(*words, "--max", "0.05abs", "--levels", "2", code=2).stderr
         self.assertIn("--levels 2: 'l-3.ply' is a further level of another chain", said)
@@ -140,17 +143,6 @@ class Simplify(unittest.TestCase):
             with self.subTest(words):
                 self.assertIn(named, self.run_program("simplify", "a.obj", *words, code=2).stderr)
         self.assertEqual(self.files(), ["a.obj"])
-
-    def test_odd_meshes(self):
-        odd = {"one.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-               "degenerate.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 1 4\nf 1 2 2\n",
-               "crossing.obj": "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -1\nv 0.2 0.2 1\nv 0.9 0.3 1\nf 1 2 3\nf 4 5 6\n",
-               "fin.obj": "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n"}
-        for name, text in odd.items():
-            with self.subTest(name):
-                (self.folder / name).write_text(text)
-                self.run_program("simplify", name, "--max", "0.001abs", "--out", "odd.ply")
-                self.check_gate(name, "odd.ply", "0.001abs", "--symmetric")
 
     @unittest.skipIf(jsonschema is None, "no jsonschema")
     def test_json_fits_its_schema(self):
@@ -190,20 +182,13 @@ class Simplify(unittest.TestCase):
                                   (["a.obj", *limit, "--device", "none such"], 5, None), (["a.obj", "--out", "b.ply"], 2, None),
                                   (["a.obj", "--max", "1%", "--out", "a.obj"], 2, None), (["a.obj", *limit, "--levls", "2"], 2, None),
                                   (["a.obj", "--max", "1mm", "--out", "b.ply"], 2, None), (["a.obj", *limit, "--time", "1e-9s"], 3, None)):
-            for place in ("--json", "--json=out.json"):
-                with self.subTest((words, place)):
-                    done = self.run_program("simplify", *words, place, code=code)
-                    text = (self.folder / "out.json").read_text() if place != "--json" else done.stdout
-                    answer = json.loads(text)
-                    jsonschema.validate(answer, schema)
-                    self.assertEqual((answer["error"]["code"], answer["error"]["file"]), (code, file))
-                    self.assertEqual(done.stderr, f"vkhausdorff: {answer['error']['message']}\n")
+            with self.subTest(words):
+                done = self.run_program("simplify", *words, "--json=out.json" if file else "--json", code=code)
+                answer = json.loads((self.folder / "out.json").read_text() if file else done.stdout)
+                jsonschema.validate(answer, schema)
+                self.assertEqual((answer["error"]["code"], answer["error"]["file"]), (code, file))
+                self.assertEqual(done.stderr, f"vkhausdorff: {answer['error']['message']}\n")
         self.assertNotIn("b.ply", self.files())
-
-    def test_a_binary_stl_has_as_many_faces_as_it_says(self):
-        self.run_program("simplify", "a.obj", "--max", "1%", "--out", "b.stl")
-        data = (self.folder / "b.stl").read_bytes()
-        self.assertEqual(len(data), 84 + 50 * struct.unpack("<I", data[80:84])[0])
 
 
 if __name__ == "__main__":

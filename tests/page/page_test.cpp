@@ -273,11 +273,11 @@ TEST_CASE("a picture stands in, or a sentence says that there is none") {
 }
 
 TEST_CASE("a page is no larger than it may be") {
-  const Invented pair(vkh::test::torus(20, 6, 400, 200), vkh::test::uv_sphere(18, 200, 300));
+  const Invented pair(vkh::test::torus(20, 6, 200, 100), vkh::test::uv_sphere(18, 100, 150));
   const size_t whole = vkh::to_page(pair.contents()).size();
   CHECK(whole < 5'000'000);
   const size_t bare = vkh::to_page(pair.contents(), {.bytes = 1}).size();
-  for (const size_t bytes : {bare + 400'000, bare + 60'000}) {
+  for (const size_t bytes : {bare + 150'000, bare + 60'000}) {
     const std::string page = vkh::to_page(pair.contents(), {.bytes = bytes});
     CHECK(page.size() <= bytes);
     CHECK(page.size() > bare + (bytes - bare) / 3);
