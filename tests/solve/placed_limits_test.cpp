@@ -16,6 +16,7 @@
 #include "tests/shapes/adversarial.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/decimal_value.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/exact.h"
 #include "vkhausdorff/place.h"
@@ -312,7 +313,7 @@ void ask(const Placed& a, Case one, Counts& counts) {
 
 int asked_cases() {
   const char* more = std::getenv("VKH_PLACED_LIMITS");
-  return more != nullptr ? std::atoi(more) : 100;
+  return more != nullptr ? std::atoi(more) : kIsSanitized ? 20 : 100;
 }
 
 }  // namespace

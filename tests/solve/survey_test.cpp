@@ -17,6 +17,7 @@
 #include "host/solve/cell_corners.h"
 #include "host/survey/survey_with.h"
 #include "tests/shapes/hard_pairs.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/solver_bench.h"
 #include "vkhausdorff/certificate.h"
 #include "vkhausdorff/error.h"
@@ -147,7 +148,7 @@ Sampled sample(const Mesh& a, const Mesh& b, double band, int count) {
 }
 
 TEST_CASE("random points agree within what is random of them") {
-  constexpr int kPoints = 40000;
+  constexpr int kPoints = kIsSanitized ? 2000 : 40000;
   const auto check = [&](const Mesh& a, const Mesh& b, double band) {
     const SurveyResult r = surveyed(a, b, all_of_it({band}));
     REQUIRE(r.statistics);

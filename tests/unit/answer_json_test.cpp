@@ -11,6 +11,7 @@
 #include "host/answer/json_object.h"
 #include "host/base/decimal.h"
 #include "tests/support/answer_kinds.h"
+#include "tests/support/sanitized.h"
 #include "vkhausdorff/error.h"
 
 namespace {
@@ -183,16 +184,14 @@ TEST_CASE("a member that came with a version is missing in older answers alone")
 }
 
 TEST_CASE("a stranger in place of any value is refused, or read as another answer") {
-#ifdef VKH_SANITIZED  // a minute otherwise
-  const std::vector<Json> strangers = {nullptr, -1, Json::array()};
-#else
   const std::vector<Json> strangers = {nullptr,       true,           -1,   1.5, "x", "", 3,
                                        Json::array(), Json::object(), 1e300};
-#endif
+  size_t turn = 0;  // of the sanitizers, where a value meets one of them
   for (const Answer& answer : all_kinds_of_answers()) {
     const Json whole = Json::parse(to_json(answer));
     for_each_value(whole, "", [&](const std::string& at, const Json&) {
       for (const Json& stranger : strangers) {
+        if (kIsSanitized && turn++ % (strangers.size() + 1) != 0) continue;
         Json changed = whole;
         changed[Json::json_pointer(at)] = stranger;
         (void)is_refused(changed);

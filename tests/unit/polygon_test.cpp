@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "host/read/readers.h"
+#include "tests/verification/oracle/reference_solver.h"
 #include "vkhausdorff/error.h"
 
 namespace vkh {
@@ -248,9 +249,30 @@ TEST_CASE("the ambiguity holds both diagonals of a quad, and is 0 in a plane of 
   CHECK(tilted < 1e-14);
 }
 
+// So no interval that is wider by it misses any triangulation's.
+TEST_CASE("neither triangulation of a quad is farther from the other than the ambiguity") {
+  std::mt19937 random(14);
+  std::uniform_real_distribution<double> off(-0.2, 0.2);
+  int near = 0;
+  for (int i = 0; i < 200 / kTimes; ++i) {
+    Points quad = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (glm::dvec3& p : quad) p += glm::dvec3(off(random), off(random), off(random));
+    const double ambiguity = made_of(quad).result.ambiguity;
+    const std::vector<DVec3> corners(quad.begin(), quad.end());
+    const Mesh one = make_mesh("one", corners, {{0, 1, 2}, {0, 2, 3}});
+    const Mesh other = make_mesh("other", corners, {{1, 2, 3}, {1, 3, 0}});
+    const double apart = std::max(test::reference_hausdorff(one, other, 1e-6).lower,
+                                  test::reference_hausdorff(other, one, 1e-6).lower);
+    CHECK(apart <= ambiguity);
+    near += ambiguity < 2 * apart ? 1 : 0;
+  }
+  CHECK(near > 100 / kTimes);
+}
+
 TEST_CASE("20,000 spikes are cut; 100,000 are given up within a bound, and keep the fan") {
   std::mt19937 random(35);
-  CHECK(made_of(star(random, 20000, 1, false)).result.kind == PolygonKind::kClipped);
+  CHECK(made_of(star(random, 20000 / kTimes, 1, false)).result.kind == PolygonKind::kClipped);
+  if (kTimes > 1) return;
   const Made made = made_of(star(random, 100000, 1, false));
   CHECK(made.result.kind == PolygonKind::kIntricate);
   CHECK(made.faces == fan_of(100000));
