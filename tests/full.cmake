@@ -73,7 +73,7 @@ vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_
                   pages packed_glb native_program files_by_program pair_schema python_progress python_metrics python_align python_field python_simplify
                   fine_test placed_limits_test closest_test self_test_test cells_test)
 # Arithmetic in exact numbers, and kernels beside their twins on the processor: the sanitizers see the tests alone.
-vkh_label(nightly polygon_test round_trip_test decimal_test orientation_test printed_numbers_test)
+vkh_label(nightly polygon_test decimal_test orientation_test printed_numbers_test)
 foreach(source IN LISTS VKH_TEST_SOURCES)
   get_filename_component(name ${source} NAME_WE)
   if(source MATCHES "/verification/math/|/kernel_[a-z_]*_test")
