@@ -84,7 +84,7 @@ class Bytes {
     if (!is_so) throw Broken("byte " + std::to_string(at_) + ": " + otherwise);
   }
 
-  /// A little-endian number of so many bytes.
+  /// A little-endian number of `count` bytes.
   uint64_t take(unsigned count) {
     expect(count <= left(), "ends too early");
     uint64_t out = 0;

@@ -1,4 +1,5 @@
-# What makes an edited file's tests run sooner, where it is installed: ccache, and a linker that takes a tenth of ld's time.
+# Tools that make an edited file's tests run sooner, if they are installed: ccache, and a linker that takes a tenth of ld's
+# time.
 option(VKH_CCACHE "Compile by ccache, if it is installed" OFF)
 option(VKH_FAST_LINK "Link by mold or lld, if one is installed" OFF)
 

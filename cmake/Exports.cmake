@@ -1,5 +1,5 @@
-# vkh_export(TARGET PATTERN): a shared library or module shows the symbols of this pattern and no other, neither those that
-# libstdc++ forces to be visible nor those of archives in it. Windows exports what is marked and nothing else.
+# vkh_export(TARGET PATTERN): a shared library or module shows only the symbols of this pattern, and neither symbols that
+# libstdc++ forces to be visible nor symbols of archives in it. Windows exports what is marked and nothing else.
 function(vkh_export target pattern)
   if(APPLE)
     target_link_options(${target} PRIVATE "LINKER:-exported_symbol,_${pattern}")

@@ -3,8 +3,8 @@
 option(VKH_PRECOMPILE "Precompile headers; OFF where each file is checked by itself" ON)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/empty.cpp CONTENT "")
 
-# vkh_precompiled(NAME FLAGS HEADER...): the target NAME makes the header, by the FLAGS of those that will read it: GCC
-# refuses a header that was made by others.
+# vkh_precompiled(NAME FLAGS HEADER...): the target NAME makes the header, by the FLAGS of its users: GCC refuses a
+# header that was made with other flags.
 function(vkh_precompiled name flags)
   if(NOT VKH_PRECOMPILE OR NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()

@@ -39,7 +39,7 @@ VkhReport distance(example::Gpu& gpu, const VkhMesh& a, const VkhMesh& b, float 
   });
   VkhReport report;
   std::memcpy(&report, result.mapped, sizeof(report));
-  return report;  // report.lower <= h(A, B) <= report.upper, whatever report.status says
+  return report;  // report.lower <= h(A, B) <= report.upper, for any report.status
 }
 // [embed]
 

@@ -2,7 +2,7 @@
 // frame moves both meshes on the device and runs four ways on the same shape:
 //   warm     refit B's BVH, start from the last frame's run
 //   cold     refit, start from nothing
-//   rebuild  build the BVH anew, start from nothing
+//   rebuild  build the BVH again, start from nothing
 //   faces    as warm, and then the error of each face: a survey, with --survey-waves waves
 // Prints CSV to stdout and a summary to stderr. gpu_ms is the device's time from the BVH to the
 // report, wall_ms the host's, recording included.

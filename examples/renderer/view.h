@@ -21,7 +21,7 @@ struct MeshPush {
   uint32_t mode, report_words;
 };
 
-/// The size of a pixel at `distance` from the camera, in a view of so many rows.
+/// The size of a pixel at `distance` from the camera, in a view of `rows` rows.
 inline float pixel_at(float distance, uint32_t rows) {
   return 2 * std::tan(kFieldOfView / 2) * distance / static_cast<float>(rows);
 }

@@ -11,7 +11,7 @@ poses     fits of scans in random poses. A scan of a mesh of FOLDER is moved by 
           whole, anywhere; half of its faces (on one side of a plane) turned by up to 20 degrees and moved by 5 % of the
           diagonal; or half of them, anywhere. A fit is back if its error (root mean square, without the noise) is under a tenth
           of the noise's deviation. Fewer than 15,000 vertices, or a symmetry, do not average the noise to that.
-closest   times Solver.closest on a bumpy sphere of about so many faces, and measures its widths.
+closest   times Solver.closest on a bumpy sphere of about this many faces, and measures its widths.
 sided     limits that differ by side: A is a surface of random heights over a plate, multiples of 2^-12, B the plate, a box or a
           sheet, looking up or down; limits lie about the largest heights. Exits with 1 for a false verdict.
 points    times --points on clouds near a mesh, binary little-endian PLY of triangles with x, y and z alone, such as vkh_noise

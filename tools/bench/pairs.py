@@ -378,7 +378,7 @@ def main():
     for name in ("program", "manifest", "out"):
         parser.add_argument(name)
     parser.add_argument("--only", default="", help="part of a pair's name")
-    parser.add_argument("--pairs", type=int, help="the first so many; metrics: in all")
+    parser.add_argument("--pairs", type=int, help="number of pairs, the first ones; metrics: in all")
     parser.add_argument("--max-faces", type=int, default=10**9, help="of either mesh")
     parser.add_argument("--tol", default="1e-6", help="a fraction of the diagonal")
     parser.add_argument("--device", default="")

@@ -163,7 +163,7 @@ double survey_ms(Solver& solver, const Mesh& a, const Mesh& b, const SweepOption
   return result.ms;
 }
 
-// Splits all cells until there are so many, and tells the sides of all.
+// Splits all cells until there are enough, and finds the sides of all.
 Checked check_pair(Solver& solver, const Mesh& a, const Mesh& b, const SweepOptions& args) {
   Checked checked;
   hold_pair(solver, {a, b}, {}, [&](const SurveyedPair& pair) {

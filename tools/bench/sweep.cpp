@@ -1,5 +1,5 @@
-// What a device answers on thousands of small, hard, generated pairs, or on a pair of files,
-// against something independent.
+// Compares a device's answers on thousands of small, hard, generated pairs, or on a pair of files,
+// with independent ones.
 //
 //   vkh_sweep [--kind distances|cells|proofs|sides] [--count N] [--first I] [--seed S] [--device D]
 //   [--spoil X]

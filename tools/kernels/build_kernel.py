@@ -29,8 +29,8 @@ LAYOUT = "--scalar-block-layout"
 
 # lavapipe inlines and brings to SSA form at every start of a program, which takes longer than
 # reading code already in that form (docs/log/startup.md). Nothing here may touch floating point: no
-# -O, no --simplify-instructions, which reassociate whatever is not `precise`. That is left to the
-# drivers, whose rounding is specified.
+# -O, no --simplify-instructions, which reassociate everything that is not `precise`. That is left
+# to the drivers, whose rounding is specified.
 FLATTEN = """
   --merge-return --inline-entry-points-exhaustive --eliminate-dead-functions
   --private-to-local --eliminate-local-single-block --eliminate-local-single-store

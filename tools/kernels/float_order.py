@@ -72,7 +72,7 @@ def no_contraction(words):
 
 
 def other_instructions(words):
-    """Extended instructions of other sets than GLSL.std.450, and those that give several values."""
+    """Extended instructions of other sets than GLSL.std.450, and ones that give several values."""
     types = spirv.module_of(words).types
     for at, op in spirv.instructions(words):
         if op == OP_EXT_INST_IMPORT:

@@ -25,7 +25,7 @@ struct {type} {{
   static std::span<const uint32_t> edits_for_cpu();
   static uint32_t fingerprint();                     // of the words
   static constexpr uint32_t kByAddress = {by_address:#x};  // bindings, as bits, that those edits replace
-  static constexpr uint32_t kSharedBytes = {shared_bytes};  // of a workgroup, whatever the switches
+  static constexpr uint32_t kSharedBytes = {shared_bytes};  // of a workgroup, the most over all switches
 
   struct Args {{
 {args}

@@ -54,7 +54,7 @@ VkInstance make_instance(const VulkanApi& vk) {
   return instance;
 }
 
-// The features that the engine needs, and those that it takes.
+// The features that the engine needs, and optional ones that it uses.
 struct Features {
   VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR executables{};
   VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};

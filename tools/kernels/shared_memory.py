@@ -1,4 +1,4 @@
-"""The shared memory of a kernel's workgroup, from its SPIR-V, whatever the switches."""
+"""The shared memory of a kernel's workgroup, from its SPIR-V, for all switches."""
 
 import itertools
 

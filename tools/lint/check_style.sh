@@ -10,7 +10,7 @@ kClangFormat=14
 failures=$(mktemp)
 trap 'rm -f "$failures"' EXIT
 
-# files FOLDER... -- EXTENSION...: those that exist, sorted.
+# files FOLDER... -- EXTENSION...: the files that exist, sorted.
 files() {
   local folders=() names=()
   while [ "$1" != -- ]; do

@@ -102,7 +102,7 @@ int main(int argc, char** argv) {
   uint64_t seed = 1;
   CLI::App app("Pairs whose distances are known: moved exactly.", "vkh_moved");
   app.add_option("LIST", list, "Pairs, as `vkhausdorff batch` takes them")->required();
-  app.add_option("--count", count, "So many")->required();
+  app.add_option("--count", count, "How many")->required();
   app.add_option("--out", out, "A folder")->required();
   app.add_option("--seed", seed, "Of the moves");
   CLI11_PARSE(app, argc, argv);

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   double noise = 0.001;
   std::string out, shape = "torus";
   CLI::App app("A noisy surface of any size.", "vkh_noise");
-  app.add_option("--faces", faces, "At most so many, and about as many")->required();
+  app.add_option("--faces", faces, "The most faces; about as many are made")->required();
   app.add_option("--seed", seed, "Of the noise")->required();
   app.add_option("--shape", shape, "The surface")->check(CLI::IsMember({"torus"}));
   app.add_option("--noise", noise, "Most that a vertex lies off, of the tube's radius")

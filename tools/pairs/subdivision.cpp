@@ -12,7 +12,7 @@ namespace {
 
 uint64_t key_of(uint32_t i, uint32_t j) { return uint64_t{std::min(i, j)} << 32 | std::max(i, j); }
 
-// Rows of so many elements go to the disk at once, made by several threads: some megabytes.
+// Several threads make rows of this many parts, which go to the disk at once: some megabytes.
 constexpr size_t kParts = 16;
 constexpr size_t kRowsOfPart = 1 << 14;
 

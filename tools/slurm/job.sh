@@ -4,7 +4,7 @@
 #   sbatch --dependency=afterany:ARRAY tools/slurm/job.sh merge PROGRAM LIST FOLDER [OPTIONS OF vkhausdorff merge]
 # Paths are absolute, on file systems that all nodes share. Task i of 64 does shards i, i + 64, i + 128 ... of SHARDS.
 #
-# What becomes of a task:
+# The end of a task:
 #   killed program  say for memory: the task is requeued, and goes on after the last whole line
 #   time limit      USR1 comes two minutes before it: the batch ends, and the task is requeued
 #   preempted       TERM: the batch ends; Slurm requeues the task, where the partition's PreemptMode says so

@@ -98,7 +98,7 @@ export class Chart {
     }
   }
 
-  // Of signed colours those over the other mesh are above, those under it below.
+  // Signed colours: the ones over the other mesh are above, the ones under it below.
   drawGradient(side, scale) {
     const context = this.gradient.getContext('2d');
     this.gradient.width = 512;

@@ -47,7 +47,7 @@ function floatOf(bits) {
   return word.getFloat32(0);
 }
 
-// Distances at corners: each is told by its difference from the one before at its vertex.
+// Distances at corners: each is stored as its difference from the one before at its vertex.
 function readDistances(codes, corners, vertices, unit) {
   const known = new Int32Array(vertices).fill(-1);
   const distances = new Float64Array(codes.length);

@@ -59,7 +59,7 @@ function weightsOf(positions, face, point) {
   return [1 - (t[0] + t[1]) / sum, t[0] / sum, t[1] / sum];
 }
 
-/// What is shown at a point, and the ends of what is proven of it.
+/// The shown distance at a point, and the width of its proven interval.
 function distanceAt(mesh, hit) {
   const weights = weightsOf(mesh.positions, hit.face, hit.point);
   const value = weights.reduce((sum, w, i) => sum + w * mesh.distances[3 * hit.face + i], 0);

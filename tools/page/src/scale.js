@@ -2,7 +2,7 @@
 import { shareWithin } from './share.js';
 
 const log10 = Math.log10;
-const FAR = 5;  // a top so many times the colour bar's end would squeeze all the rest
+const FAR = 5;  // with a higher top, relative to the colour bar's end, everything else would be squeezed
 
 /// Little of each surface is within this distance; the first bar is for that.
 function leastOf(data, hi) {
