@@ -97,7 +97,7 @@ bool load_functions(const VkhDeviceInfo& info, const Limits& limits, DeviceFunct
   complete = complete && vk.name != nullptr;
   VKH_PROMOTED_FUNCTIONS(VKH_LOAD)
 #undef VKH_LOAD
-  // Asks the instance: a layer may return the device's functions though the extension is not
+  // Asks the instance: a layer may return the device's functions even though the extension is not
   // enabled.
 #define VKH_LOAD(name) \
   vk.name = reinterpret_cast<PFN_vk##name>(info.getInstanceProcAddr(info.instance, "vk" #name));
@@ -120,8 +120,8 @@ Hierarchy view_built(const VkhContext_T& context, VkhHierarchy b) {
   return view_hierarchy(b, context.limits);
 }
 
-// Returns a run's options with what is wrong in them replaced: 0 for a negative number or a NaN,
-// and no pause where a workspace cannot grow, for such a run would wait forever.
+// Returns a run's options with wrong values replaced: 0 for a negative number or a NaN, and no
+// pause if the workspace cannot grow, since such a run would wait forever.
 VkhRunOptions checked(VkhRunOptions options, bool can_grow) {
   for (float* x : {&options.cullTolerance, &options.knownLower, &options.limit, &options.limitUp})
     *x = not_negative(*x);
@@ -173,7 +173,7 @@ void record_any_refit(Recorder& rec, Rules& rules, const VkhMesh& mesh,
   if (mesh.vertexCount == hierarchy.vertexCount && mesh.faceCount == hierarchy.faceCount) {
     record_refit(rec, mesh, h);
   } else {
-    rec.fill(h.fault, gpu::kFaultLayout);  // it has no room for another mesh
+    rec.fill(h.fault, gpu::kFaultLayout);  // the BVH has no room for another mesh
   }
 }
 
@@ -238,7 +238,7 @@ void record_output(Recorder& rec, const Problem& p, const VkhTask& task) {
   if (task.reportBuffer != VK_NULL_HANDLE)
     record_any_report(rec, p, report_at(task.reportBuffer, task.reportOffset));
   if (task.statisticsBuffer == VK_NULL_HANDLE) return;
-  // A report changes nothing of what is copied, so that no barrier is needed behind it.
+  // A report does not change what is copied, so no barrier is needed after it.
   const Order order = task.reportBuffer != VK_NULL_HANDLE ? Order::kIndependent : Order::kAfterAll;
   record_any_statistics(rec, p, statistics_at(task.statisticsBuffer, task.statisticsOffset), order);
 }
@@ -274,8 +274,8 @@ bool record_in_step(Recorder& together, const Rules& rules, const VkhTask* tasks
   return true;
 }
 
-// A call of a survey: its rules, and the problem and the streams that it works on. `cells`: how
-// many there are, or will be; 0: as many as A has faces.
+// A call of a survey: its rules, and the problem and the streams that it works on. `cells`: the
+// number of cells, now or afterwards; 0: as many as A has faces.
 struct SurveyCall {
   SurveyCall(VkhContext context, VkCommandBuffer commands, const VkhProblem* problem,
              const VkhSurvey* survey, uint64_t cells = 0)

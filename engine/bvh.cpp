@@ -21,7 +21,7 @@ AlignedRange align(VkBuffer buffer, VkDeviceSize offset, VkDeviceSize bytes) {
 
 uint32_t over(uint32_t count, uint32_t fan) { return (count + fan - 1) / fan; }
 
-// The kernels' buffers: the BVH's, and besides
+// The kernels' buffers: the BVH's, and each kernel's others.
 struct Count : Hierarchy {
   gpu::CountPush push;
 };
@@ -60,13 +60,15 @@ struct Check : Words {
   Slice<uint32_t> fault_words;
 };
 
-// The levels over the triangles: those over 4, 64, .. of them stand behind those over 16, 256, ..
+// The levels over the triangles: the levels over 4, 64, .. triangles stand behind the levels over
+// 16, 256, ..
 gpu::PyramidPush first_levels(const Hierarchy& h) {
   return {.from = 0, .count = h.face_count, .quads = pyramid_size(h.face_count), .sixteens = 0};
 }
 
-// The levels above those that the triangles' kernel wrote, of 256 triangles a box, 65,536, ..: none
-// up to there, where its last workgroup writes them all; otherwise until a run holds a level.
+// The levels above the ones that the triangles' kernel wrote, of 256 triangles a box, 65,536, ... A
+// small B has none, since the last workgroup of that kernel writes them all; otherwise they go on
+// until a run holds a level.
 void record_pyramid(Recorder& rec, const Hierarchy& h) {
   gpu::PyramidPush push = first_levels(h);
   while (push.count > gpu::kRun * gpu::kRun) {
@@ -90,7 +92,7 @@ void record_boxes(Recorder& rec, const Hierarchy& h) {
                        Items{4 * (std::max(h.face_count, 2u) - 1)});
 }
 
-// The nodes' places, which a refit leaves as they are.
+// Finds the nodes' places, which a refit does not change.
 void record_ranks(Recorder& rec, const Hierarchy& h, const Slice<uint32_t>& next_rank) {
   rec.fill(next_rank, 1);
   rec.run<k::BvhRank>(Ranked{h, {h.face_count}, next_rank}, Items{h.face_count - 1});
@@ -118,7 +120,7 @@ Words words_of(const VkhMesh& mesh) {
   return {push, high.words, indices.words, low.words};
 }
 
-// Keeps with the BVH whether B, as a build or a refit takes it, is a mesh.
+// Stores in the BVH whether B is a valid mesh, at a build or a refit.
 void record_fault(Recorder& rec, const VkhMesh& b, const Hierarchy& h) {
   rec.fill(h.fault, layout_fault(b), Order::kIndependent);
   record_check(rec, b, h.fault, 0);

@@ -10,8 +10,9 @@
 
 namespace vkh {
 
-// Returns the words after the edits: numbers, again and again, of words kept, of words left out and
-// of words put there, and the latter; then the rest is kept. Throws std::bad_alloc.
+// Returns the words after the edits. Each edit is the number of words to keep, the number to drop
+// and the number to insert, followed by the inserted words. After the last edit the rest is kept.
+// Throws std::bad_alloc.
 std::vector<uint32_t> edited(std::span<const uint32_t> words, std::span<const uint32_t> edits);
 
 }  // namespace vkh

@@ -13,12 +13,12 @@ namespace {
 
 // Looks at a rule unless one before it is broken. The rule is a part of the asserted expression, so
 // that assert prints it.
-#define VKH_RULE(rule, holds)                    \
-  do {                                           \
-    if (!kept_) break;                           \
-    const bool holds_now = (holds);              \
-    assert(are_told() || ((rule) && holds_now)); \
-    if (!holds_now) broken(rule);                \
+#define VKH_RULE(rule, holds)                        \
+  do {                                               \
+    if (!kept_) break;                               \
+    const bool holds_now = (holds);                  \
+    assert(is_reporting() || ((rule) && holds_now)); \
+    if (!holds_now) broken(rule);                    \
   } while (false)
 
 bool is_index_type(VkIndexType type) {
@@ -36,7 +36,7 @@ bool overlaps_any(const VkhMemory& memory, const VkhHierarchy& hierarchy) {
 }  // namespace
 
 void Misuses::add(VkCommandBuffer commands, const char* rule) {
-  if (tell_ != nullptr) tell_(user_, commands, rule);
+  if (callback_ != nullptr) callback_(user_, commands, rule);
   const std::lock_guard lock(mutex_);
   commands_.insert(commands);
 }
@@ -53,7 +53,7 @@ void Misuses::forget(VkCommandBuffer commands) {
 
 bool Rules::are_checked() const {
 #ifdef NDEBUG
-  return are_told();
+  return is_reporting();
 #else
   return true;
 #endif
@@ -61,11 +61,11 @@ bool Rules::are_checked() const {
 
 void Rules::broken(const char* rule) {
   kept_ = false;
-  if (are_told()) context_.misuses->add(commands_, rule);
+  if (is_reporting()) context_.misuses->add(commands_, rule);
 }
 
 bool Rules::pointers(const char* rule, bool are_given) {
-  if (are_told() && !are_given) broken(rule);
+  if (is_reporting() && !are_given) broken(rule);
   return kept_;
 }
 

@@ -1,6 +1,6 @@
 // The rules of vkhausdorff.h that the caller must keep. With VKH_CONTEXT_CHECK_CALLS any build
 // tells the caller which one is broken; otherwise a debug build asserts them, and a build with
-// NDEBUG does not look.
+// NDEBUG does not check.
 #pragma once
 
 #include <cassert>
@@ -14,18 +14,18 @@ namespace vkh {
 // Whether the pointers of a call are given; the rule is a part of the asserted expression, so that
 // assert prints it.
 #define VKH_POINTERS(rules, rule, are_given) \
-  (assert((rules).are_told() || ((rule) && (are_given))), (rules).pointers(rule, are_given))
+  (assert((rules).is_reporting() || ((rule) && (are_given))), (rules).pointers(rule, are_given))
 
-// The misuse that a context has been told of; its command buffers must not be submitted.
+// The command buffers in which a checked call broke a rule. They must not be submitted.
 class Misuses {
  public:
-  Misuses(VkhMisuse tell, void* user) : tell_(tell), user_(user) {}
+  Misuses(VkhMisuse callback, void* user) : callback_(callback), user_(user) {}
   void add(VkCommandBuffer commands, const char* rule);
   bool has(VkCommandBuffer commands);
   void forget(VkCommandBuffer commands);
 
  private:
-  VkhMisuse tell_;
+  VkhMisuse callback_;
   void* user_;
   std::mutex mutex_;
   std::unordered_set<VkCommandBuffer> commands_;
@@ -38,11 +38,11 @@ class Rules {
   Rules(const VkhContext_T& context, VkCommandBuffer commands)
       : context_(context), commands_(commands) {}
 
-  bool are_told() const { return context_.misuses != nullptr; }
+  bool is_reporting() const { return context_.misuses != nullptr; }
   bool pointers(const char* rule, bool are_given);
   // `scratch`: null for a refit, whose BVH has been built.
   bool build(const VkhMesh& mesh, const VkhHierarchy& hierarchy, const VkhMemory* scratch);
-  // The rules of what the begin alone reads, and of what the rest of a run reads, too.
+  // The rules for what only the begin reads, and for what the rest of a run reads, too.
   bool begin(const VkhProblem& problem);
   bool problem(const VkhProblem& problem);
   bool task(const VkhTask& task);
@@ -51,7 +51,7 @@ class Rules {
   bool report(VkBuffer buffer, VkDeviceSize offset);
   bool statistics(VkBuffer buffer, VkDeviceSize offset);
   bool cells(const VkhProblem& problem, const VkhCells& cells);
-  // The rules of a survey's calls, of which `cells` is how many cells there are, or will be.
+  // The rules of a survey's calls. `cells`: the number of cells, now or afterwards.
   bool survey(const VkhProblem& problem, const VkhSurvey& survey, uint64_t cells);
   bool survey_output(VkBuffer buffer, VkDeviceSize offset);
   bool closest(const VkhHierarchy& b, const VkhClosestQuery& query);

@@ -85,7 +85,7 @@ Barriers::Needs Barriers::needs_of(const Command& c) const {
 
 // The first scope of a barrier from compute shaders includes the stages that come before them
 // (Vulkan 1.3, "Execution and Memory Dependencies"): the device reads a size before a later kernel
-// writes it anew.
+// writes it again.
 void Barriers::write_barrier(const Needs& needs) {
   const bool for_all = waits_for_all_ || needs.transfers;
   if (for_all) {
@@ -98,7 +98,7 @@ void Barriers::write_barrier(const Needs& needs) {
   waits_for_all_ = false;
 }
 
-// Writes the command and keeps what the next barriers must know of it.
+// Writes the command, and remembers what the next barriers depend on.
 void Barriers::write_after_barrier(const Command& c) {
   write_without_barrier(binder_, c);
   waits_for_all_ = waits_for_all_ || is_transfer(c);

@@ -12,7 +12,8 @@
 
 namespace vkh {
 
-// kAfterAll: a memory barrier stands before the command, for all that was recorded before it.
+// kAfterAll: a memory barrier stands before the command and waits for everything recorded before
+// it.
 enum class Order { kAfterAll, kIndependent };
 
 constexpr uint32_t kMaxBindings = 16;
@@ -32,7 +33,7 @@ struct Command {
   uint32_t push_bytes = 0;
   uint32_t groups = 0;        // of a dispatch
   uint32_t word = 0;          // of a fill
-  Slice<gpu::Dispatch> size;  // of an indirect one: one of them
+  Slice<gpu::Dispatch> size;  // of an indirect dispatch: one element
 };
 
 class Binder;  // engine/descriptors.h
@@ -41,15 +42,15 @@ class Binder;  // engine/descriptors.h
 using Track = std::vector<Command>;
 
 // The barriers of one call, each as narrow as its step allows. The first one waits for everything,
-// and so does one beside a transfer. Between dispatches a barrier is of compute shaders alone; it
-// serves a size that the device reads where a kernel may have written that size since the last
-// barrier that did.
+// and so does one beside a transfer. Between dispatches a barrier is of compute shaders alone. It
+// also covers the indirect sizes that the device reads, if a kernel may have written one since the
+// last barrier that covered them.
 class Barriers {
  public:
   explicit Barriers(Binder& binder) : binder_(binder) {}
 
-  // Writes the command, with the barrier that its order requires. An independent transfer needs one
-  // where the step's own barrier was of compute shaders alone: put it first in its step.
+  // Writes the command, with the barrier that its order requires. An independent transfer needs a
+  // barrier if the step's own was of compute shaders alone: put it first in its step.
   void write(const Command& command);
 
   // Writes the tracks in step: one barrier, then the next step of each. No track may use what
@@ -57,7 +58,7 @@ class Barriers {
   void write_in_step(const std::vector<Track>& tracks);
 
  private:
-  // The needs of a step besides computing.
+  // The needs of a step other than compute.
   struct Needs {
     bool transfers = false;
     bool fresh_sizes = false;  // it reads one that was written since the last barrier for sizes

@@ -42,7 +42,7 @@ namespace vkh {
 // The function for large buffers that are given by address (engine/by_address.h).
 #define VKH_ADDRESS_FUNCTIONS(X) X(GetBufferDeviceAddress)
 
-// Labels and names for captures; null where the caller has not enabled VK_EXT_debug_utils.
+// Labels and names for captures; null unless the caller has enabled VK_EXT_debug_utils.
 #define VKH_OPTIONAL_FUNCTIONS(X) \
   X(CmdBeginDebugUtilsLabelEXT)   \
   X(CmdEndDebugUtilsLabelEXT)     \
@@ -71,7 +71,7 @@ constexpr uint32_t kMaxKernels = 64;
 
 struct Limits {
   VkDeviceSize storage_range = 0;  // bytes of one binding
-  uint32_t switches = 0;           // of the context: some have streams of their own
+  uint32_t switches = 0;           // of the context: some switches add streams
   bool wide = true;                // many workgroups run at once (base/switches.glsl)
   bool cpu = false;                // the device is a CPU
   bool pushes = true;              // it has push descriptors

@@ -1,4 +1,4 @@
-// The field: bounds of the distance over cells of A, next to a run and without effect on it.
+// The field: bounds of the distance over cells of A, beside a run and without effect on it.
 #include "engine/record.h"
 
 namespace vkh {
@@ -8,7 +8,7 @@ void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
   struct Given : RunBuffers {
     Slice<gpu::Cell> cells;
     Slice<gpu::CellBounds> bounds;
-    Slice<uint32_t> parents, faces_reached;  // a survey's alone
+    Slice<uint32_t> parents, faces_reached;  // of a survey only
     Slice<gpu::SurveyWave> wave;
     gpu::CellPush push;
   };

@@ -33,8 +33,8 @@ constexpr uint32_t push_size<NoPush>() {
   return 0;
 }
 
-// A CPU has kernels of its own, unless it is to use the GPU profile: without code that it would
-// never run, their loops kept as they are. Others have one set, which kWide specialises.
+// A CPU has its own kernels, unless it is to use the GPU profile: they lack code that it would
+// never run, and keep their loops. Other devices have one set, which kWide specialises.
 std::array<KernelSource, kKernelCount> kernel_sources(const Limits& limits) {
   const bool for_cpu = limits.cpu && !limits.wide;
   return {{
@@ -50,8 +50,8 @@ std::array<KernelSource, kKernelCount> kernel_sources(const Limits& limits) {
   }};
 }
 
-// Captures and messages of the validation layer call the object so. A name that cannot be given is
-// no error.
+// Names the object in captures and in messages of the validation layer. A name that cannot be set
+// is no error.
 template <class Handle>
 void name_object(const VkhContext_T& c, VkObjectType type, Handle handle, const char* name) {
   if (c.vk.SetDebugUtilsObjectNameEXT == nullptr) return;
@@ -83,7 +83,7 @@ VkResult create_layouts(const VkhContext_T& c, const KernelSource& source, Kerne
   set.pBindings = bindings.data();
   VkResult result = c.vk.CreateDescriptorSetLayout(c.device, &set, nullptr, &out.set_layout);
   if (result != VK_SUCCESS) {
-    out.set_layout = VK_NULL_HANDLE;  // Vulkan does not define what a call that failed has written
+    out.set_layout = VK_NULL_HANDLE;  // Vulkan does not define what a failed call has written
     return result;
   }
 
@@ -148,7 +148,7 @@ VkResult create_kernel(const VkhContext_T& c, const KernelSource& source, VkPipe
 
 constexpr uint32_t kMostThreads = 8;
 
-// The long ones start first, so that none of them runs alone at the end.
+// The slow kernels start first, so that none of them compiles alone at the end.
 std::array<uint32_t, kKernelCount> costliest_first(
     const std::array<KernelSource, kKernelCount>& sources) {
   std::array<uint32_t, kKernelCount> order{};
@@ -218,7 +218,7 @@ void create_on_own_threads(Creation& creation, uint32_t most) {
   try {
     helpers.reserve(count);
     for (uint32_t i = 1; i < count; ++i) helpers.emplace_back(work);
-  } catch (...) {  // no more threads available: those there are do it
+  } catch (...) {  // no more threads are available: the running ones do the work
   }
   work();
   for (std::thread& helper : helpers) helper.join();

@@ -24,8 +24,8 @@ struct IndexOf;
 VKH_KERNELS(VKH_INDEX)
 #undef VKH_INDEX
 
-// The threads that create pipelines: the caller's, by `run`, or up to `most` of ours, 0 for a
-// number that pays.
+// The threads that create pipelines: the caller's, by `run`, or up to `most` of ours; 0 chooses a
+// number.
 struct Threads {
   uint32_t most = 0;
   VkhParallelFor run = nullptr;

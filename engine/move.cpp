@@ -1,5 +1,5 @@
-// Moves a run into a workspace with more room: copies the state between two waves, and nothing that
-// a wave computes anew.
+// Moves a run into a workspace with more room: copies the state between two waves, but nothing that
+// a wave computes again.
 #include <bit>
 #include <cstddef>
 

@@ -8,12 +8,12 @@
 namespace vkh {
 
 // Copies a mesh of the caller's into packed positions and indices; writes zeros if layout_fault is
-// not kNone, since its reads could go anywhere.
+// not kNone, since the mesh's addresses could then be anywhere.
 void record_load(Recorder& rec, const VkhMesh& mesh, const Slice<gpu::Vertex>& vertices,
                  const Slice<gpu::uvec3>& faces);
 
 // Returns kFaultLayout if a VkhMesh cannot describe a mesh, otherwise kNone. The host checks what
-// costs nothing: counts, strides and offsets, the type of indices, and whether there are buffers.
+// costs nothing: counts, strides, offsets, the type of indices, and that buffers are not null.
 uint32_t layout_fault(const VkhMesh& mesh);
 // With a context that checks: writes whether the caller's buffers hold a mesh into a word of
 // `words`, which holds the faults known so far.
@@ -22,9 +22,9 @@ void record_check(Recorder& rec, const VkhMesh& mesh, const Slice<uint32_t>& wor
 // Sorts keys with values by bits first_bit and up, 8 a pass, stable, ascending: from the side that
 // sort_side names to side 0.
 uint32_t sort_side(uint32_t first_bit);
-// A sort of few keys is a chain of dispatches, and spares one if the kernel that writes the keys
-// counts their first digits into streams.counts, which this empties, by blocks of as many keys as
-// this returns. 0: the sort counts by itself.
+// A sort of few keys is a chain of dispatches. It needs one less if the kernel that writes the keys
+// also counts their first digits into streams.counts, which this function clears. Returns the
+// number of keys of a block for these counts; 0: the sort counts itself.
 uint32_t record_empty_counts(Recorder& rec, const SortStreams& streams, uint32_t count,
                              uint32_t first_bit, Order order);
 enum class Counted { kNo, kYes };
@@ -81,9 +81,9 @@ struct Given : RunBuffers {
   Given(const RunBuffers& run, const Push& p) : RunBuffers(run), push(p) {}
   Push push;
 };
-// The points for `query`, kAsk*; so many of A's vertices and, if `warm`, the present witness. A
-// wave passes no vertices and `warm`: if its plan has moved the base, query.comp measures the
-// witness alone, as the item behind zero vertices.
+// The points for `query`, kAsk*: A's first `vertex_count` vertices and, if `warm`, the present
+// witness. A wave passes no vertices and `warm`: if its plan has moved the base, query.comp
+// measures the witness alone, as the item behind zero vertices.
 gpu::QueryPush query_push(const Problem& p, uint32_t asked, uint32_t vertex_count = 0,
                           bool warm = true);
 
@@ -92,11 +92,12 @@ void record_seed(Recorder& rec, const Problem& p);
 void record_first_wave(Recorder& rec, const Problem& p);
 void record_wave(Recorder& rec, const Problem& p);
 // Sorts the places of the frontier's candidates into the order in which they are refined, if the
-// plan finds it worth it. Only the paper's presets need it.
+// plan decides that this pays. Only the paper's presets need it.
 void record_order(Recorder& rec, const RunBuffers& run);
-// The run goes on in another workspace, or in its own; to's pauseWhenFull holds from now on.
+// Moves the run into another workspace, or lets it go on in its own; pauseWhenFull of `to` holds
+// from now on.
 void record_move(Recorder& rec, const Problem& from, const Problem& to);
-// The cells of A to be bounded: `count` of `cells`, or, without a buffer, faces from `first` on.
+// The cells of A to bound: `count` of `cells`, or, without a buffer, faces from `first` on.
 struct AskedCells {
   Slice<gpu::Cell> cells;
   Slice<gpu::CellBounds> bounds;
@@ -104,8 +105,8 @@ struct AskedCells {
   bool has_run = true;  // false: there are no distances, and bounds are NaN
 };
 void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked);
-// A survey's cells. The host reads and writes through buffers of its own; each call waits for the
-// one before it.
+// A survey's cells. The host reads and writes through its own buffers; each call waits for the one
+// before it.
 void record_survey_cells(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const Slice<gpu::Wide>& weights, float farthest);
 // Scores all cells by the plan, and counts them by bins into `histogram`.
@@ -132,14 +133,15 @@ void record_survey_sides(Recorder& rec, const Problem& p, const SurveyStreams& s
 // Finds how normals agree on cells.
 void record_survey_normals(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                            const VkhSurveyNormals& normals);
-// Copies what each face reaches, and then what none of its points exceeds.
+// Copies, for each face, a distance that it reaches, and then, for each, one that none of its
+// points exceeds.
 void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyFaces& faces);
 // Copies cells, with their bounds and classes.
 void record_survey_read(Recorder& rec, const SurveyStreams& survey, const VkhSurveyRead& read);
 // Takes over bounds that the host has narrowed.
 void record_survey_write(Recorder& rec, const SurveyStreams& survey, const VkhSurveyWrite& write);
-// Copies what the survey knows into one with more room.
+// Copies the survey's state into memory with more room.
 void record_survey_move(Recorder& rec, const SurveyStreams& from, const SurveyStreams& to,
                         uint32_t cells);
 // The points whose closest faces of B are to be found.
@@ -151,9 +153,9 @@ struct AskedPoints {
 };
 void record_closest(Recorder& rec, const Hierarchy& b, const AskedPoints& points);
 void record_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
-// Copies what the run has counted, as VkhStatistics; `order`: of the first copy.
+// Copies the run's counts, as VkhStatistics; `order`: of the first copy.
 void record_statistics(Recorder& rec, const Problem& p, const Slice<uint32_t>& to, Order order);
-// Reports only that A or B is no mesh, where nothing was built.
+// Reports only that A or B is no mesh, if nothing was built.
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report);
 void record_unbuilt_survey_report(Recorder& rec, const Slice<gpu::SurveyWave>& report);
 void record_unbuilt_faces(Recorder& rec, const Slice<float>& faces);

@@ -36,7 +36,7 @@ class Recorder {
   [[nodiscard]] Scope scope(const char* name) { return {*this, name}; }
 
   Recorder(const VkhContext_T& context, VkCommandBuffer commands, VkhProfile* profile);
-  // Keeps the commands instead, without labels and timestamps.
+  // Keeps the commands on a track instead, without labels and timestamps.
   Recorder(const VkhContext_T& context, Track& track)
       : context_(context), binder_(context, VK_NULL_HANDLE), track_(&track) {}
 

@@ -61,7 +61,7 @@ void record_statistics(Recorder& rec, const Problem& p, const Slice<uint32_t>& t
 void record_unbuilt_report(Recorder& rec, const Problem& p, const Slice<gpu::Report>& report) {
   const auto scope = rec.scope("report");
   ReportBuffers run(p, report);
-  // The meshes that are invalid, as a code for the kernel where nothing is built.
+  // The code of the invalid meshes, for the kernel that runs if nothing is built.
   run.push = {(p.has_a ? 0u : 1u) | (p.b.face_count > 0 ? 0u : 2u), 0};
   rec.run<k::ReportWrite>(run, Groups{1});
   rec.stage("report");

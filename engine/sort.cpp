@@ -42,8 +42,8 @@ struct SortKeys {
 
 uint32_t passes_of(const SortKeys& keys) { return (32 - keys.first_bit) / 8; }
 
-// `blocks`, `digits`: the sizes of dispatches with a workgroup for each; none for digits where
-// blocks are few.
+// `blocks`, `digits`: the sizes of dispatches with one workgroup each; without `digits` if blocks
+// are few.
 template <class Size>
 // NOLINTNEXTLINE(readability-function-size): two callers, in this file
 void record_passes(Recorder& rec, const SortStreams& s, SortKeys sorted, Counted counted,
@@ -65,7 +65,7 @@ void record_passes(Recorder& rec, const SortStreams& s, SortKeys sorted, Counted
 
 // A sort of few keys is a chain of rounds and dispatches on a few of the device's processors: up to
 // kSortFewBlocks workgroups take fewer rounds, and each pass counts for the next, by atomics. A CPU
-// does not wait, and each workgroup costs it more.
+// has no such waits, and each workgroup costs it more.
 SortKeys keys_for(const Recorder& rec, uint32_t first_bit, uint32_t count) {
   if (!rec.is_wide()) return {first_bit, gpu::kSortRounds, count, false};
   uint32_t rounds = gpu::kFewestSortRounds;

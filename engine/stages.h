@@ -1,6 +1,6 @@
-// The stages of a wave, in the order in which they run: when each is needed, and the column of its
-// times. The recording (engine/wave.cpp), the pipelines that a context creates (engine/kernels.cpp)
-// and the benchmark's table read them. The plan writes the sizes (shaders/wave/sizes.glsl).
+// The stages of a wave: when each is needed, and the column of its times. engine/wave.cpp records
+// them in this order, engine/kernels.cpp creates their pipelines, and the benchmark's table reads
+// them. The plan writes their sizes (shaders/wave/sizes.glsl).
 #pragma once
 
 #include <array>
@@ -36,7 +36,8 @@ inline constexpr std::array kStages{
     Stage{kIndexOfWaveBound, &gpu::WaveSizes::bound, gpu::bounds_plainly, "bound"},
     Stage{kIndexOfWavePlan, nullptr, gpu::is_apart, "plan"}};
 
-// The stage of a kernel and a size. As a constant: if there is none, it does not compile.
+// The stage of a kernel and a size. Used in constant expressions, where a missing stage does not
+// compile.
 constexpr const Stage& stage_of(uint32_t kernel, WaveSize size) {
   size_t at = 0;
   while (kStages.at(at).kernel != kernel || kStages.at(at).size != size) ++at;

@@ -12,8 +12,8 @@
 namespace vkh {
 namespace {
 
-// The extensions, as far as a device has them: without the first it needs Vulkan 1.3, without the
-// second the engine uses descriptor sets.
+// The extensions that are used if the device has them. Without the first the device needs Vulkan
+// 1.3; without the second the engine uses descriptor sets.
 constexpr const char* kExtensions[] = {VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME,
                                        VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
 
@@ -68,8 +68,8 @@ uint32_t old_instance(const VkhDeviceInfo& info) {
   return has_device_function(info, "vkTrimCommandPool") ? VK_API_VERSION_1_1 : VK_API_VERSION_1_0;
 }
 
-// Says what is older than Vulkan 1.2, device or instance, by functions that Vulkan 1.0 has: no
-// other may be called there.
+// Says what is older than Vulkan 1.2, device or instance. Uses only functions of Vulkan 1.0: no
+// others may be called there.
 std::string too_old(const VkhDeviceInfo& info) {
   VkPhysicalDeviceProperties properties;
   load<PFN_vkGetPhysicalDeviceProperties>(info, "vkGetPhysicalDeviceProperties")(
@@ -241,7 +241,7 @@ std::string reasons_against(const VkhDeviceInfo& info) {
   DeviceFacts facts;
   query_facts(info, facts);
   // Every device answers this since Vulkan 1.1, and lavapipe only where the instance is as new. It
-  // is asked where VkhDeviceInfo tells no version and has no device.
+  // is the only sign of an old instance if VkhDeviceInfo has neither a version nor a device.
   if (facts.subgroup.subgroupSize == 0)
     return "the instance was created for Vulkan 1.0, not 1.2 or later";
   query_features(info, facts);

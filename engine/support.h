@@ -1,4 +1,4 @@
-// The features that a device must have, and those that the engine uses.
+// The features that a device must have, and further ones that the engine uses.
 #pragma once
 
 #include "engine/context.h"

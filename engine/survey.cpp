@@ -21,7 +21,7 @@ struct SurveyGiven : RunBuffers {
         bounds(s.bounds),
         weights(s.weights),
         faces_reached(s.faces_reached),
-        faces_told(s.faces_told),
+        face_errors(s.face_errors),
         classes(s.classes),
         keys(s.keys),
         parents(s.parents),
@@ -36,7 +36,7 @@ struct SurveyGiven : RunBuffers {
   Slice<gpu::Cell> cells;
   Slice<gpu::CellBounds> bounds;
   Slice<gpu::Wide> weights;
-  Slice<uint32_t> faces_reached, faces_told, classes, keys, parents;
+  Slice<uint32_t> faces_reached, face_errors, classes, keys, parents;
   Slice<gpu::CellAgreement> agreements;
   Slice<gpu::SurveyCounts> blocks;
   Slice<uint32_t> histogram;
@@ -51,8 +51,8 @@ Slice<T> first_of(const Slice<T>& slice, VkDeviceSize count) {
   return {slice.buffer, slice.offset, count * sizeof(T)};
 }
 
-// A kernel that goes over all cells has no more workgroups than keep a device busy, since each has
-// sums of its own to add.
+// A kernel that goes over all cells has only as many workgroups as keep a device busy, since each
+// adds its own sums to the total.
 uint32_t groups_for(uint32_t cells) {
   constexpr uint32_t kCellsOfGroup = 4 * gpu::kGroupSize;
   return std::clamp((cells + kCellsOfGroup - 1) / kCellsOfGroup, 1u, gpu::kSurveyGroups);
@@ -66,7 +66,7 @@ Slice<uint32_t> word_of(const Slice<Struct>& slice, size_t offset) {
   return {slice.buffer, slice.offset + offset, sizeof(uint32_t)};
 }
 
-// Fills members of what was written before.
+// Fills members of a struct that was written before.
 template <class Struct, size_t count>
 void fill_words(Recorder& rec, const Slice<Struct>& slice,
                 const std::array<std::pair<size_t, uint32_t>, count>& words) {
@@ -87,7 +87,7 @@ void record_split(Recorder& rec, const Problem& p, const SurveyStreams& survey, 
   rec.run<k::SurveySplit>(given, Items{parents});
 }
 
-// The new cells are those of the wave; `count` of them at most, from the first on.
+// Bounds the new cells of the wave, at most `count` of them, from the first on.
 void record_bound(Recorder& rec, const Problem& p, const SurveyStreams& survey, uint32_t first,
                   uint32_t count) {
   const SurveyGiven given(p, survey,
@@ -107,8 +107,8 @@ void record_score(Recorder& rec, const Problem& p, const SurveyStreams& survey, 
   rec.run<k::SurveyScore>(given, Groups{groups});
 }
 
-// The plan: each face's error is known to a width, or on which side of a limit it is. It stands in
-// for one of the host's.
+// Writes the plan that replaces one of the host's: each face's error is to be known to a width, or
+// on which side of a limit it is.
 void record_plan_of_faces(Recorder& rec, const SurveyStreams& survey, const VkhSurvey& asked) {
   using Plan = gpu::SurveyPlan;
   const auto within = std::bit_cast<uint32_t>(asked.faceLimit);
@@ -126,7 +126,7 @@ void record_plan_of_faces(Recorder& rec, const SurveyStreams& survey, const VkhS
 
 enum class Splits { kNo, kYes };
 
-// Scores all cells, and chooses what is to be split, or only tells how the survey stands.
+// Scores all cells, and chooses what to split, or only finds the survey's status.
 void record_choice(Recorder& rec, const Problem& p, const SurveyStreams& survey, uint32_t capacity,
                    Splits splits) {
   rec.fill(survey.histogram, 0);
@@ -286,25 +286,25 @@ void record_unbuilt_faces(Recorder& rec, const Slice<float>& faces) {
   rec.fill(faces, kNan);
 }
 
-// Copies what is told of each face to the caller's buffer. What a face reached before its cells
-// were split is kept.
+// Copies both bounds of each face's error to the caller's buffer. A distance that a face reached
+// before its cells were split still counts.
 void record_survey_faces(Recorder& rec, const Problem& p, const SurveyStreams& survey,
                          const VkhSurveyFaces& faces) {
   const auto scope = rec.scope("survey faces");
   const VkDeviceSize bytes = VkDeviceSize{p.face_count} * sizeof(uint32_t);
-  const auto tell = [&](uint32_t classes, uint32_t reached, VkDeviceSize offset) {
+  const auto write_errors = [&](uint32_t classes, uint32_t reached, VkDeviceSize offset) {
     if (reached != 0 && (classes & gpu::kAllClasses) == gpu::kAllClasses) {
-      rec.copy(survey.faces_reached, survey.faces_told);
+      rec.copy(survey.faces_reached, survey.face_errors);
     } else {
-      rec.fill(survey.faces_told, 0);
+      rec.fill(survey.face_errors, 0);
     }
     const SurveyGiven given(p, survey, gpu::SurveyFacesPush{classes, reached});
     rec.run<k::SurveyFaces>(given, Items{faces.cells});
-    rec.copy(first_of(survey.faces_told, p.face_count),
+    rec.copy(first_of(survey.face_errors, p.face_count),
              {faces.buffer, faces.offset + offset, bytes});
   };
-  tell(faces.reachedClasses, 1, 0);
-  tell(faces.highestClasses, 0, bytes);
+  write_errors(faces.reachedClasses, 1, 0);
+  write_errors(faces.highestClasses, 0, bytes);
 }
 
 void record_survey_read(Recorder& rec, const SurveyStreams& survey, const VkhSurveyRead& read) {

@@ -3,12 +3,12 @@
  * device.
  *
  * Result: a report with lower <= h(A, B) <= upper in exact real arithmetic, for the float32
- * coordinates in your buffers, whatever ended the run. Distances are in the units of the
+ * coordinates in your buffers, no matter what ended the run. Distances are in the units of the
  * coordinates. Every recorded step narrows the interval; you may stop after any.
  *
  * Out of scope: it never submits, waits, allocates device memory, creates a device, opens a
  * file, prints or reads the environment. It exports no symbol but vkh*. Recording cannot fail where
- * descriptors can be pushed; sizes and support are asked first.
+ * descriptors can be pushed; sizes and support are queried first.
  *
  * Order of use, once a device:      vkhQuerySupport, vkhCreateContext
  *               once a mesh B:      vkhGetHierarchyRequirements, vkhCmdBuildHierarchy
@@ -20,9 +20,9 @@
  *                                   waves), vkhCmdWriteSurveyFaces
  *               many pairs at once: vkhCmdRunTasks, which builds, begins, advances and reports
  * All of it may stand in one command buffer, or be spread over many: two waves a frame and a report
- * after each. Reports of one run nest: lower never falls and upper never rises, but for rounding.
- * For meshes that deform, each frame is: refit if B has moved, begin (warm), advance, report. A has
- * nothing to refit: vkhCmdBegin reads it anew.
+ * after each. Reports of one run nest: lower never falls and upper never rises, except for
+ * rounding. For meshes that deform, each frame is: refit if B has moved, begin (warm), advance,
+ * report. A has nothing to refit: vkhCmdBegin reads it again.
  *
  * Coordinates should be of order 1: scale by a power of two and move the meshes near the origin
  * first (both are exact or nearly so; h scales along). The error analysis holds for coordinates up
@@ -54,11 +54,11 @@
  * workspace are written by ALL_TRANSFER too: before you use that memory for something else, wait
  * for both.
  *
- * Queue families: buffers of VK_SHARING_MODE_EXCLUSIVE belong to one family. Those that the engine
- * is given must belong to the family that runs its commands; it records no transfer of ownership. A
- * mesh that another family has written, or a report that another family reads, needs your release
- * and acquire, or VK_SHARING_MODE_CONCURRENT. Scratch and workspace hold nothing before the first
- * use, and need none.
+ * Queue families: buffers of VK_SHARING_MODE_EXCLUSIVE belong to one family. Buffers that you give
+ * to the engine must belong to the family that runs its commands; it records no transfer of
+ * ownership. A mesh that another family has written, or a report that another family reads, needs
+ * your release and acquire, or VK_SHARING_MODE_CONCURRENT. Scratch and workspace hold nothing
+ * before the first use, and need none.
  *
  * Clobbered: at VK_PIPELINE_BIND_POINT_COMPUTE the pipeline and the descriptor sets; the push
  * constants of all stages. Nothing of VK_PIPELINE_BIND_POINT_GRAPHICS, no dynamic state.
@@ -88,8 +88,8 @@
 #define VKH_VERSION VKH_MAKE_VERSION(VKH_VERSION_MAJOR, VKH_VERSION_MINOR, VKH_VERSION_PATCH)
 #define VKH_VERSION_STRING "0.3.0"
 
-/* Marks what the library exports. A shared library on Windows needs VKH_SHARED defined by those who
- * use it, as the CMake target and pkg-config do, and VKH_BUILDS_ENGINE by its own build. */
+/* Marks what the library exports. A shared library on Windows needs VKH_SHARED defined by its
+ * users, as the CMake target and pkg-config do, and VKH_BUILDS_ENGINE by its own build. */
 #if defined(_WIN32) && defined(VKH_SHARED) && defined(VKH_BUILDS_ENGINE)
 #define VKH_API __declspec(dllexport)
 #elif defined(_WIN32) && defined(VKH_SHARED)
@@ -104,7 +104,7 @@
 extern "C" {
 #endif
 
-/* Pipelines for one device and one set of switches; no device memory of its own. */
+/* The pipelines for one device and one set of switches. It has no device memory. */
 typedef struct VkhContext_T* VkhContext;
 
 typedef enum VkhResult {
@@ -135,7 +135,7 @@ typedef enum VkhDeviceKind {
   VKH_DEVICE_KIND_NARROW = 2 /* CPU profile, few workgroups at once: no invocation without work */
 } VkhDeviceKind;
 
-/* What a context does besides, or in another way. The values leave free what VkhSwitchBits takes.
+/* Further features of a context. The values do not overlap VkhSwitchBits.
  */
 typedef enum VkhContextFlagBits {
   VKH_CONTEXT_COVERAGE = 0x80, /* runs write VkhRunOptions::coverageBuffer */
@@ -154,12 +154,12 @@ typedef enum VkhContextFlagBits {
    * VKH_CONTEXT_COVERAGE: a device that binds 128 MiB takes 33 million faces. It binds 2 million of
    * B. Every bit of a report is the same. Needs the feature bufferDeviceAddress (Vulkan 1.2),
    * enabled; without it vkhCreateContext returns VKH_ERROR_UNSUPPORTED. The buffers of each VkhMesh
-   * and VkhMemory: usage SHADER_DEVICE_ADDRESS besides, in memory allocated with
+   * and VkhMemory: also usage SHADER_DEVICE_ADDRESS, in memory allocated with
    * VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, at multiples of 16 bytes. vertexCount * vertexStride is
    * at most 8 GiB. robustBufferAccess does not hold for addresses. */
   VKH_CONTEXT_BY_ADDRESS = 0x200000,
   /* Any build looks for broken rules in the calls that record: pointers, strides, offsets, sizes,
-   * counts, types, ranges. A call that breaks one tells it to VkhContextCreateInfo::onMisuse and
+   * counts, types, ranges. A call that breaks one reports it to VkhContextCreateInfo::onMisuse and
    * records nothing; vkhGetRecordingResult then returns VKH_ERROR_MISUSE for the command buffer,
    * which must not be submitted. */
   VKH_CONTEXT_CHECK_CALLS = 0x400000
@@ -176,7 +176,7 @@ typedef struct VkhDeviceInfo {
   VkDevice device; /* created with what vkhGetRequiredExtensions and vkhQuerySupport name */
   /* The version that `instance` was created for, VkApplicationInfo::apiVersion: Vulkan has no way
    * to ask for it, and an older instance is then named before a function of Vulkan 1.1 is called.
-   * 0: not told, so that an older one is named once `device` shows it. */
+   * 0: unknown, so that an older one is named only once `device` shows it. */
   uint32_t apiVersion;
 } VkhDeviceInfo;
 
@@ -199,8 +199,8 @@ VKH_API VkhResult vkhQuerySupport(const VkhDeviceInfo* info, char* reasons, size
 typedef void (*VkhParallelFor)(void* user, uint32_t count, void (*work)(void* data, uint32_t i),
                                void* data);
 
-/* Hears the first rule that a call breaks, a static string such as "VkhMesh::vertexStride: at least
- * 12 bytes", on the thread that records. */
+/* Called with the first rule that a call breaks, a static string such as "VkhMesh::vertexStride: at
+ * least 12 bytes", on the thread that records. */
 typedef void (*VkhMisuse)(void* user, VkCommandBuffer commandBuffer, const char* rule);
 
 typedef struct VkhContextCreateInfo {
@@ -225,7 +225,7 @@ typedef struct VkhContextCreateInfo {
  * the pipelines, on several threads while it runs (`threads`); this is the one slow call (seconds
  * where the driver has not compiled them before, so keep a pipeline cache). Nothing of `info` but
  * the handles in `device` is kept; they must outlive the context. Returns VKH_SUCCESS,
- * VKH_ERROR_UNSUPPORTED (vkhQuerySupport tells why, or VKH_CONTEXT_BY_ADDRESS needs a feature),
+ * VKH_ERROR_UNSUPPORTED (vkhQuerySupport says why, or VKH_CONTEXT_BY_ADDRESS needs a feature),
  * VKH_ERROR_NOT_ENABLED, VKH_ERROR_PIPELINE or VKH_ERROR_MISUSE; on failure *context is null and
  * nothing is left.
  *
@@ -253,8 +253,8 @@ VKH_API void vkhDestroyContext(VkhContext context);
  * nothing. Without the extension a command buffer binds descriptor sets, which the context keeps.
  * The first, after recording: VKH_ERROR_MEMORY if one could not be allocated; VKH_ERROR_MISUSE if a
  * checked call broke a rule. Commands are then missing: do not submit. The second frees the sets
- * and forgets broken rules: once the command buffer has run, and is freed or to be recorded anew.
- * With push descriptors and no broken rule it has nothing to free, and may be left out. */
+ * and forgets broken rules: call it once the command buffer has run, before it is freed or recorded
+ * again. With push descriptors and no broken rule it has nothing to free, and may be left out. */
 VKH_API VkhResult vkhGetRecordingResult(VkhContext context, VkCommandBuffer commandBuffer);
 VKH_API void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer commandBuffer);
 
@@ -264,9 +264,9 @@ VKH_API void vkhReleaseCommandBuffer(VkhContext context, VkCommandBuffer command
  * Without VKH_CONTEXT_CHECK_INPUT the GPU checks nothing: coordinates not finite and indices out of
  * range give an untrue interval; the latter are taken for the last vertex. Unused vertices are no
  * part of the mesh. Degenerate faces are segments or points. Both buffers: usage STORAGE_BUFFER;
- * each range is at most maxStorageBufferRange less 256 bytes, but for VKH_CONTEXT_BY_ADDRESS, and
- * with 16-bit indices it must reach to the end of the last index's 4-byte word. A and B may share
- * buffers. The engine never writes them. */
+ * each range is at most maxStorageBufferRange less 256 bytes, except with VKH_CONTEXT_BY_ADDRESS,
+ * and with 16-bit indices it must reach to the end of the last index's 4-byte word. A and B may
+ * share buffers. The engine never writes them. */
 typedef struct VkhMesh {
   VkBuffer vertexBuffer;
   VkDeviceSize vertexOffset; /* bytes */
@@ -298,9 +298,9 @@ enum { VKH_MAX_RANGES = 8 };
 typedef struct VkhHierarchyRequirements {
   VkDeviceSize hierarchySize; /* bytes; kept as long as the BVH is used */
   VkDeviceSize scratchSize;   /* bytes; free again once the build has run, e.g. for the workspace */
-  /* The ranges of memory that hold it, and the bytes of each: one, of hierarchySize, unless that is
-   * more than the device allocates at once (maxMemoryAllocationSize). A list larger than that has a
-   * range to itself, since many devices allocate more than they promise. */
+  /* The ranges of memory that hold the BVH, and the bytes of each: one, of hierarchySize, unless
+   * that is more than the device allocates at once (maxMemoryAllocationSize). A list larger than
+   * that has a range to itself, since many devices allocate more than they promise. */
   uint32_t rangeCount;
   VkDeviceSize ranges[VKH_MAX_RANGES];
 } VkhHierarchyRequirements;
@@ -329,15 +329,15 @@ typedef struct VkhWorkspaceRequirements {
   VkDeviceSize maximum;     /* bytes; more is not used, because of device limits */
 } VkhWorkspaceRequirements;
 
-/* Sizes for A. Anything from minimum to maximum is right: a smaller workspace costs time, never
- * truth. A pair that holds more candidates than there is room for takes more waves; pauseWhenFull
- * gives it more room when it wants some. tools/bench/workspace_bench.cpp measures what each size
- * costs. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */
+/* Sizes for A. Anything from minimum to maximum is right: a smaller workspace costs time, but the
+ * interval stays true. A pair that holds more candidates than there is room for takes more waves;
+ * pauseWhenFull lets it have more room when it needs it. tools/bench/workspace_bench.cpp measures
+ * what each size costs. Returns VKH_SUCCESS or VKH_ERROR_TOO_LARGE. */
 VKH_API VkhResult vkhGetWorkspaceRequirements(VkhContext context, uint32_t vertexCount,
                                               uint32_t faceCount,
                                               VkhWorkspaceRequirements* requirements);
 
-/* Bytes, from minimum to maximum, of a workspace with room for so many candidates at once. */
+/* Bytes, from minimum to maximum, of a workspace with room for `candidates` at once. */
 VKH_API VkDeviceSize vkhGetWorkspaceSize(VkhContext context, uint32_t vertexCount,
                                          uint32_t faceCount, uint32_t candidates);
 
@@ -372,12 +372,12 @@ VKH_API void vkhCmdRefitHierarchy(VkhContext context, VkCommandBuffer commandBuf
                                   const VkhMesh* mesh, const VkhHierarchy* hierarchy,
                                   VkhProfile* profile);
 
-/* What is asked of a run. Zeros in all but `size` ask for the distance to the last bit that floats
+/* The options of a run. Zeros in all but `size` ask for the distance to the last bit that floats
  * have: set cullTolerance, say to 1e-6 of the diagonal of A's box. */
 typedef struct VkhRunOptions {
   size_t size; /* sizeof(VkhRunOptions) */
   /* >= 0, in the coordinates' units: candidates within it of the lower bound are closed. Here and
-   * below, NaN and what is under 0 break a rule; where rules are not checked they stand for 0. */
+   * below, NaN and negative numbers break a rule; if rules are not checked they stand for 0. */
   float cullTolerance;
   /* Use the vertices' low parts, and steer by 48-bit positions: if there are low parts, and for
    * tolerances under about 1e-6 of the coordinates' magnitude. The interval is certified either
@@ -395,7 +395,7 @@ typedef struct VkhRunOptions {
    * the interval is just as true, but takes longer. Zero it for a first frame, and where a run must
    * repeat to the last bit. */
   VkBool32 warm;
-  /* With a context of VKH_CONTEXT_COVERAGE, and with no other (then null): 16 bytes a face of A,
+  /* With a context of VKH_CONTEXT_COVERAGE; null with any other: 16 bytes a face of A,
    * usage STORAGE_BUFFER and TRANSFER_DST, the offset a multiple of 256 bytes. Written by compute
    * shaders and transfers: vkhCmdBegin clears it, the waves add what they close, vkhCmdWriteReport
    * adds what is open. It holds faceCount 64-bit integers (two little-endian words each), the part
@@ -404,11 +404,11 @@ typedef struct VkhRunOptions {
    * without a bound yet. */
   VkBuffer coverageBuffer;
   VkDeviceSize coverageOffset; /* bytes */
-  /* VK_TRUE: if the workspace has no room for all that a wave would do, the run pauses: waves
-   * change nothing, and VkhReport::wanted says for how many candidates room is wanted, until
-   * vkhCmdMoveRun gives it a larger workspace or has it go on with what there is. VK_FALSE, or in a
-   * workspace of VkhWorkspaceRequirements::maximum: candidates without room wait for a later wave,
-   * which takes longer. Read by vkhCmdBegin and vkhCmdMoveRun. */
+  /* VK_TRUE: if the workspace has no room for all the work of a wave, the run pauses: waves change
+   * nothing, and VkhReport::wanted says for how many candidates it needs room, until vkhCmdMoveRun
+   * gives it a larger workspace or lets it go on in the present one. VK_FALSE, or in a workspace of
+   * VkhWorkspaceRequirements::maximum: candidates without room wait for a later wave, which takes
+   * longer. Read by vkhCmdBegin and vkhCmdMoveRun. */
   VkBool32 pauseWhenFull;
   /* > 0, in the coordinates' units: the run only answers whether h(a, b) is within it. Candidates
    * within it are closed, and the first sample that is surely farther ends the run: waves after it
@@ -418,8 +418,8 @@ typedef struct VkhRunOptions {
    * relies on coordinates of order 1: if they are larger it may end at VKH_STATUS_PRECISION,
    * undecided, a float's error beyond the limit. 0: no limit. */
   float limit;
-  /* 0, which stands for limit, or more than limit: lower must exceed it for VKH_STATUS_BEYOND. For
-   * a limit that is no float, set `limit` to it rounded down, and this to it rounded up. */
+  /* 0, which stands for limit, or more than limit: lower must exceed it for VKH_STATUS_BEYOND. If
+   * your limit is no float, set `limit` to it rounded down, and this to it rounded up. */
   float limitUp;
   uint32_t sortFrom; /* for VKH_SWITCH_SORT of vkhausdorff_experimental.h; else unused */
 } VkhRunOptions;
@@ -445,7 +445,7 @@ VKH_API void vkhCmdBegin(VkhContext context, VkCommandBuffer commandBuffer,
 /* Records `waves` waves: each refines what is undecided and narrows the interval. A wave after the
  * end costs a few empty dispatches, so more than are needed may be recorded: a frame's budget is a
  * number of waves. A wave after the lower bound has risen far above VkhReport::base, which
- * distances are kept above, measures the witness anew and refines nothing. A command buffer of
+ * distances are kept above, measures the witness again and refines nothing. A command buffer of
  * waves alone, submitted again, goes on where the run stands; one that starts with vkhCmdBegin does
  * the run again. Reads the BVH, reads and writes the workspace. */
 VKH_API void vkhCmdAdvance(VkhContext context, VkCommandBuffer commandBuffer,
@@ -466,14 +466,13 @@ typedef enum VkhStatus {
   VKH_STATUS_MEMORY = 3,    /* no room for some, and none could wait: their u is in upper */
   VKH_STATUS_WITHIN = 4,    /* with VkhRunOptions::limit: upper is at most that */
   VKH_STATUS_BEYOND = 5,    /* with VkhRunOptions::limit: lower is more than limit and limitUp */
-  /* A or B is no mesh, and nothing is known: lower 0, upper infinite. Always where a
+  /* A or B is no mesh, and nothing is known: lower 0, upper infinite. This is always found if a
    * count is 0 or above 2^28, a buffer is null, a stride is under 12 or makes more than 8 GiB, a
    * stride or offset is no multiple of what it must be, an index type is unknown, or the options'
-   * `size` is of no known version; where a refit
-   * has other counts than the build; and where VkhProblem::b is a copy that was made before the
-   * build. With VKH_CONTEXT_CHECK_INPUT also for what the buffers hold. witnessFaceA and
-   * witnessFaceB are then the least face of A and of B that is at fault; 0xffffffff: none is;
-   * 0xfffffffe: the VkhMesh is, or b. */
+   * `size` is of no known version; if a refit has other counts than the build; and if VkhProblem::b
+   * is a copy that was made before the build. With VKH_CONTEXT_CHECK_INPUT the content of the
+   * buffers counts, too. witnessFaceA and witnessFaceB are then the least face of A and of B that
+   * is at fault; 0xffffffff: none is; 0xfffffffe: the VkhMesh is, or b. */
   VKH_STATUS_INPUT = 6
 } VkhStatus;
 
@@ -486,10 +485,10 @@ typedef struct VkhReport {
   /* The same interval with more bits than two float32 near h have: certified, base + lowerAbove <=
    * h(A, B) <= base + upperAbove, the sums taken exactly (in double). */
   float base, lowerAbove, upperAbove;
-  uint32_t status;    /* VkhStatus */
-  uint32_t waves;     /* that ran, vkhCmdBegin's among them: none runs after the end */
-  uint32_t remaining; /* candidates still open */
-  uint32_t wanted; /* the run pauses: vkhGetWorkspaceSize of so many candidates would do; else 0 */
+  uint32_t status;          /* VkhStatus */
+  uint32_t waves;           /* that ran, vkhCmdBegin's among them: none runs after the end */
+  uint32_t remaining;       /* candidates still open */
+  uint32_t wanted;          /* > 0: the run pauses, and needs room for `wanted` candidates */
   float witnessPosition[3]; /* the point of A that proves `lower`, rounded */
   uint32_t witnessFaceA;
   uint32_t witnessFaceB;             /* the face of B closest to it */
@@ -512,7 +511,7 @@ typedef struct VkhWaveRecord {
   float lower, upper; /* as they steer the run; not certified */
 } VkhWaveRecord;
 
-/* What a run has counted, for those who tune it: 4-byte words without padding, as VkhReport.
+/* A run's counts, for tuning: 4-byte words without padding, as VkhReport.
  * Nothing is certified here. */
 typedef struct VkhStatistics {
   uint32_t certified; /* 0: a part of the run was recorded with VKH_SWITCH_UNCERTIFIED */
@@ -523,9 +522,9 @@ typedef struct VkhStatistics {
   VkhWaveRecord waveRecords[VKH_MAX_WAVE_RECORDS]; /* wave w in w % VKH_MAX_WAVE_RECORDS */
 } VkhStatistics;
 
-/* Copies what the run has counted so far to `offset` (a multiple of 4 bytes) of `buffer` (usage
+/* Copies the run's counts so far to `offset` (a multiple of 4 bytes) of `buffer` (usage
  * TRANSFER_DST), in ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use of it.
- * Zeros where nothing was built. Takes no kernel, and changes nothing of the run. */
+ * Zeros if nothing was built. It runs no kernel, and the run does not change. */
 VKH_API void vkhCmdWriteStatistics(VkhContext context, VkCommandBuffer commandBuffer,
                                    const VkhProblem* problem, VkBuffer buffer, VkDeviceSize offset,
                                    VkhProfile* profile);
@@ -572,33 +571,34 @@ VKH_API void vkhCmdBoundCells(VkhContext context, VkCommandBuffer commandBuffer,
                               const VkhProblem* problem, const VkhCells* cells,
                               VkhProfile* profile);
 
-/* A survey tells how far each face of A is from B: cells that tile A's faces are bounded as by
- * vkhCmdBoundCells, and those that leave a face's error open are split, wave by wave. The device
- * plans: nothing is read back. In one command buffer, or in those of several frames:
+/* A survey finds how far each face of A is from B: cells that tile A's faces are bounded as by
+ * vkhCmdBoundCells, and the cells that leave a face's error open are split, wave by wave. The
+ * device plans: nothing is read back. In one command buffer, or in those of several frames:
  *     vkhCmdBegin, vkhCmdAdvance     as for h; a few waves, or none, are enough, and for these a
  *                                    workspace of VkhWorkspaceRequirements::compact
  *     vkhCmdBeginSurvey              once, and again when A or B has moved
  *     vkhCmdAdvanceSurvey            as many waves as the frame has time for; or none
  *     vkhCmdWriteSurveyFaces         the errors, for the shader that draws A
- *     vkhCmdWriteSurvey              how it stands
- * Needs a context of VKH_CONTEXT_CELLS. The run does not change, and may advance in between: of it
- * the survey needs the BVH and the copy of A in the workspace. A survey of an unknown `size` is
- * left out whole. h lies between the largest `reached` and the largest `highest` of all faces, and
- * so in what that interval has in common with the run's report. */
+ *     vkhCmdWriteSurvey              its status
+ * Needs a context of VKH_CONTEXT_CELLS. The run does not change, and may advance in between: the
+ * survey only needs its BVH and the copy of A in its workspace. A survey of an unknown `size` is
+ * ignored. h lies between the largest `reached` and the largest `highest` of all faces, and so in
+ * what that interval has in common with the run's report. */
 typedef struct VkhSurvey {
   size_t size; /* sizeof(VkhSurvey) */
   /* vkhGetSurveySize bytes; usage STORAGE_BUFFER, TRANSFER_SRC, TRANSFER_DST, no INDIRECT_BUFFER.
    * No other survey may use it at the same time; others may after it. */
   VkhMemory memory;
-  /* Cells that it has room for: at least A's faces, at most vkhGetSurveyCapacity. A split takes
-   * room for three, and cells that are done keep theirs. Four times A's faces hold one wave that
-   * splits all; a sphere of 2,000 faces took 11 times as many for errors to 1e-4 of its radius. */
+  /* The number of cells that it has room for: at least A's faces, at most vkhGetSurveyCapacity. A
+   * split needs room for three more, and finished cells keep theirs. Four times A's faces suffice
+   * for one wave that splits all; a sphere of 2,000 faces took 11 times as many for errors to 1e-4
+   * of its radius. */
   uint32_t capacity;
-  /* A face's cells are split while its `highest` is farther than so much from its `reached`, in the
-   * coordinates' units. 0: as far as float32 tells, which few have room for. A thousandth of the
-   * diagonal does for a colour. */
+  /* A face's cells are split while its `highest` exceeds its `reached` by more than this, in the
+   * coordinates' units. 0: as far as float32 resolves, which takes more room than most devices
+   * have. A thousandth of the diagonal is enough for a colour. */
   float faceWidth;
-  /* > 0: a face is done, too, once it is known to be within this, or not to be. 0: no limit. */
+  /* > 0: a face is also done once it is known to be within this, or not to be. 0: no limit. */
   float faceLimit;
 } VkhSurvey;
 
@@ -613,19 +613,19 @@ VKH_API void vkhCmdBeginSurvey(VkhContext context, VkCommandBuffer commandBuffer
                                const VkhProblem* problem, const VkhSurvey* survey,
                                VkhProfile* profile);
 
-/* Records `waves` waves: each splits into four the cells that are in the way of their face's width,
- * the widest first if there is no room for all, and bounds the parts. A wave after the end is
- * empty. Errors of faces only get narrower. */
+/* Records `waves` waves: each splits into four the cells that keep their face from its width, the
+ * widest first if there is no room for all, and bounds the parts. A wave after the end is empty.
+ * Errors of faces only get narrower. */
 VKH_API void vkhCmdAdvanceSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                                  const VkhProblem* problem, const VkhSurvey* survey, uint32_t waves,
                                  VkhProfile* profile);
 
-/* The output of vkhCmdWriteSurvey: 4-byte words without padding, as VkhReport; it too stands in
- * vkhausdorff_report.glsl. */
+/* The output of vkhCmdWriteSurvey: 4-byte words without padding, as VkhReport; it is in
+ * vkhausdorff_report.glsl, too. */
 typedef struct VkhSurveyReport {
   /* VKH_STATUS_RUNNING: a wave would split some cells. DECIDED: each face's error is known to
-   * faceWidth, or decided by faceLimit. PRECISION: to that, or to what float32 tells. MEMORY: there
-   * is no room to split any. INPUT: as in the report of the run; nothing is known. */
+   * faceWidth, or decided by faceLimit. PRECISION: to that, or as far as float32 resolves. MEMORY:
+   * there is no room to split any. INPUT: as in the report of the run; nothing is known. */
   uint32_t status;
   uint32_t waves; /* that have split cells */
   uint32_t cells;
@@ -641,14 +641,14 @@ VKH_API void vkhCmdWriteSurvey(VkhContext context, VkCommandBuffer commandBuffer
 
 /* Writes the errors of A's faces, in the order of its faces, at `offset` (a multiple of 4 bytes) of
  * `buffer` (usage TRANSFER_DST, and STORAGE_BUFFER for a shader): float[2 * faceCount], in the
- * coordinates' units. The first faceCount are `reached`: some point of the face is at least so far
- * from B. Those behind them are `highest`: none is farther. Certified, as VkhReport::lower and
- * upper are; NaN where the report would be of VKH_STATUS_INPUT. A fragment shader finds its face's
- * at gl_PrimitiveID and faceCount + gl_PrimitiveID, if one draw has A's faces in their order;
- * gl_PrimitiveID needs the device's feature geometryShader. Written in ALL_TRANSFER with
- * TRANSFER_WRITE: put a barrier from there to your use, such as FRAGMENT_SHADER with
- * SHADER_STORAGE_READ; before the next frame writes them again, wait for that stage by your barrier
- * to COMPUTE_SHADER, as for a report. */
+ * coordinates' units. The first faceCount are `reached`: some point of the face is at least this
+ * far from B. The rest are `highest`: no point of the face is farther. Certified, as
+ * VkhReport::lower and upper are; NaN if the report would be of VKH_STATUS_INPUT. A fragment
+ * shader finds its face's at gl_PrimitiveID and faceCount + gl_PrimitiveID, if one draw has A's
+ * faces in their order; gl_PrimitiveID needs the device's feature geometryShader. Written in
+ * ALL_TRANSFER with TRANSFER_WRITE: put a barrier from there to your use, such as FRAGMENT_SHADER
+ * with SHADER_STORAGE_READ; before the next frame writes them again, wait for that stage by your
+ * barrier to COMPUTE_SHADER, as for a report. */
 VKH_API void vkhCmdWriteSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
                                     const VkhProblem* problem, const VkhSurvey* survey,
                                     VkBuffer buffer, VkDeviceSize offset, VkhProfile* profile);
@@ -688,8 +688,8 @@ VKH_API void vkhCmdFindClosest(VkhContext context, VkCommandBuffer commandBuffer
                                const VkhHierarchy* b, const VkhClosestQuery* query,
                                VkhProfile* profile);
 
-/* The work for one pair, in the order of the members; each part may be left out. A task of another
- * `size` than the library knows is left out whole. */
+/* The work for one pair, in the order of the members; each part may be left out. A task whose
+ * `size` the library does not know is ignored. */
 typedef struct VkhTask {
   size_t size; /* sizeof(VkhTask), in every task */
   /* B's BVH first. With `scratch`, as vkhCmdBuildHierarchy into problem->b, whose

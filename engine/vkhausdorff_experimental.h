@@ -1,17 +1,17 @@
-/* VkHausdorff, what has no contract yet: parts of the method by switches, and surveys by plans of
- * the caller's. Any version may change what is here.
+/* VkHausdorff, interfaces without a contract yet: parts of the method by switches, and surveys by
+ * plans of the caller. Any version may change what is here.
  *
  * Parts of the method by switches: for ablations, for the comparison with the paper,
  * and to measure what the certificate costs. Renderers need nothing of this:
  * VkhContextCreateInfo::switches 0 selects what pays on the device.
  *
- * The interval is true without any of the parts, but for VKH_SWITCH_UNCERTIFIED. */
+ * The interval is true without any of the parts, except with VKH_SWITCH_UNCERTIFIED. */
 #ifndef VKHAUSDORFF_EXPERIMENTAL_H
 #define VKHAUSDORFF_EXPERIMENTAL_H
 
 #include "vkhausdorff.h"
 
-/* For VkhContextCreateInfo::switches. Bits that VkhContextFlagBits has are none of these. */
+/* For VkhContextCreateInfo::switches. These bits do not overlap VkhContextFlagBits. */
 typedef enum VkhSwitchBits {
   VKH_SWITCH_CENTROID = 1,       /* the triangle closest to a candidate's centroid, in ha and u3 */
   VKH_SWITCH_PARENT_SAMPLES = 2, /* the triangles closest to the parent's six points, too */
@@ -22,9 +22,10 @@ typedef enum VkhSwitchBits {
   VKH_SWITCH_WARM_START = 64,    /* start queries from the parent's known triangles */
   VKH_SWITCH_GROUP_WALK = 256,   /* few queries: a workgroup traverses for each; GPU profile */
   VKH_SWITCH_SHARED_FACES = 512, /* faces of A that B has are closed: h(A, A) is 0 at once */
-  /* Plain floats: NOTHING IS CERTIFIED, and no report says so; to measure the price. */
+  /* Plain floats: NOTHING IS CERTIFIED, and no report says so; to measure what the certificate
+   * costs. */
   VKH_SWITCH_UNCERTIFIED = 1024,
-  /* Parts of the paper's method that this one does without, or has in another form. */
+  /* Parts of the paper's method that this one omits, or has in another form. */
   VKH_SWITCH_SORT = 2048,   /* sort the frontier by Morton codes before it is refined */
   VKH_SWITCH_PACKET = 4096, /* one traversal for a candidate's three new points */
   VKH_SWITCH_DEFER = 8192,  /* excess candidates wait; off: they end the run as VKH_STATUS_MEMORY */
@@ -43,12 +44,12 @@ typedef enum VkhSwitchBits {
 extern "C" {
 #endif
 
-/* Surveys by plans of the caller's: for figures, maps, sides and normals. The caller says what
- * scores, and by the counts of scores what is split. The structs that its buffers hold are those of
- * shaders/gpu_types.h, SurveyPlan and SurveyTable. Calls need what vkhCmdBeginSurvey needs; they
- * are recorded in their order, and each waits for the one before it. VkhSurvey::faceWidth and
- * faceLimit are not used. Offsets are multiples of 256 bytes. Results are written in ALL_TRANSFER
- * with TRANSFER_WRITE. */
+/* Surveys by plans of the caller: for figures, maps, sides and normals. The caller says how cells
+ * score, and chooses by the counts of scores which are split. The structs that its buffers hold are
+ * those of shaders/gpu_types.h, SurveyPlan and SurveyTable. Calls need what vkhCmdBeginSurvey
+ * needs; they are recorded in their order, and each waits for the one before it.
+ * VkhSurvey::faceWidth and faceLimit are not used. Offsets are multiples of 256 bytes. Results are
+ * written in ALL_TRANSFER with TRANSFER_WRITE. */
 
 typedef struct VkhSurveyCells {
   VkBuffer weightBuffer; /* an integer of 64 bits for each face of A, all together under 2^62;
@@ -68,17 +69,16 @@ typedef struct VkhSurveyScore {
   VkBuffer histogramBuffer; /* uint32_t[2048], how many cells each bin has; usage TRANSFER_DST */
   VkDeviceSize histogramOffset;
 } VkhSurveyScore;
-/* Scores cells: by the bits of a score above the 20 lowest, a cell has its bin; bin 0 counts those
- * that are in their face's way although no split helps. All cells must have been scored before some
- * are split. */
+/* Scores cells. The bits of a score above the 20 lowest are the cell's bin; bin 0 counts cells that
+ * keep their face open although no split helps. All cells must be scored before any is split. */
 VKH_API void vkhCmdScoreSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                                const VkhProblem* problem, const VkhSurvey* survey,
                                const VkhSurveyScore* score);
 
 typedef struct VkhSurveySplit {
   uint32_t cells; /* that there are */
-  uint32_t bin;   /* cells of larger bins are split, `above` of them, */
-  uint32_t ties;  /* and the first so many of this bin, */
+  uint32_t bin;   /* cells of larger bins are split: `above` cells, */
+  uint32_t ties;  /* and the first `ties` cells of this bin, */
   uint32_t above;
   uint32_t parts; /* into halves, 2, or halves of halves, 4. There must be room for all parts but
                    * the first, and no more than a quarter of the capacity is split */
@@ -88,7 +88,7 @@ VKH_API void vkhCmdSplitSurvey(VkhContext context, VkCommandBuffer commandBuffer
                                const VkhSurveySplit* split);
 
 typedef struct VkhSurveyBound {
-  uint32_t first, count; /* of the new cells: the parts of those that were split, or A's faces */
+  uint32_t first, count; /* of the new cells: the parts of split cells, or A's faces */
 } VkhSurveyBound;
 /* Bounds new cells, which may be several calls' work. */
 VKH_API void vkhCmdBoundSurvey(VkhContext context, VkCommandBuffer commandBuffer,
@@ -110,21 +110,21 @@ VKH_API void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer
 typedef struct VkhSurveySides {
   uint32_t first, count; /* of the cells */
   float above;           /* cells that are nowhere farther from B are left out */
-  float moved;         /* both meshes' vertices together may be so far from where they are stored */
+  float moved;         /* both meshes' vertices together may be this far off their stored places */
   VkBool32 isSolid;    /* B bounds a solid: it winds `front` times round all that is in front of */
   int32_t front;       /* its faces, and one time more or less round all other points off it */
   VkBuffer kindBuffer; /* uint32_t[faces of B]: kFaceCovered and so on; usage STORAGE_BUFFER */
   VkDeviceSize kindOffset;
 } VkhSurveySides;
-/* Finds the side of B on which cells lie that have none: their class. It stays when they are split.
- * Statements hold wherever the vertices are. */
+/* Finds on which side of B cells lie that have no side yet. It becomes their class, which their
+ * parts inherit. A side holds for all positions of the vertices that `moved` allows. */
 VKH_API void vkhCmdFindSurveySides(VkhContext context, VkCommandBuffer commandBuffer,
                                    const VkhProblem* problem, const VkhSurvey* survey,
                                    const VkhSurveySides* sides);
 
 typedef struct VkhSurveyNormals {
   uint32_t first, count; /* of the cells */
-  float moved; /* both meshes' vertices together may be so far from where they are stored */
+  float moved; /* both meshes' vertices together may be this far off their stored places */
   float limitDown, limitUp; /* normals agree from a cosine between them on */
   VkBuffer normalBuffer;    /* FaceNormal[faces of A and of B]; usage STORAGE_BUFFER */
   VkDeviceSize normalOffset;
@@ -143,7 +143,7 @@ typedef struct VkhSurveyFaces {
                     * of each face, none is farther; 0: it has no such cell; usage TRANSFER_DST */
   VkDeviceSize offset;
 } VkhSurveyFaces;
-/* Tells the error of each face, as vkhCmdWriteSurveyFaces, by cells of some classes. */
+/* Writes the error of each face, as vkhCmdWriteSurveyFaces does, by the cells of some classes. */
 VKH_API void vkhCmdFindSurveyFaces(VkhContext context, VkCommandBuffer commandBuffer,
                                    const VkhProblem* problem, const VkhSurvey* survey,
                                    const VkhSurveyFaces* faces);
@@ -171,7 +171,7 @@ VKH_API void vkhCmdNarrowSurvey(VkhContext context, VkCommandBuffer commandBuffe
                                 const VkhProblem* problem, const VkhSurvey* survey,
                                 const VkhSurveyWrite* write);
 
-/* Copies a survey of so many cells into memory with more room, which takes its place. */
+/* Copies a survey of `cells` cells to one with more room, which replaces it. */
 VKH_API void vkhCmdMoveSurvey(VkhContext context, VkCommandBuffer commandBuffer,
                               const VkhProblem* problem, const VkhSurvey* from, const VkhSurvey* to,
                               uint32_t cells);

@@ -33,8 +33,8 @@ class Wave {
     run<k::Query, &Sizes::query_points>(points_);
   }
 
-  // The cheap bounds of all children, if more follows for those that they leave; the bounds of all
-  // children, or of those past the filter; the plan of the next wave.
+  // Records the cheap bounds of all children, if a filter is on; then the bounds of all children,
+  // or of the ones that the filter leaves; then the plan of the next wave.
   void bound() const {
     run<k::WaveFilter, &Sizes::filter_all>(buffers_);
     run<k::WaveSurvivors>(buffers_);
@@ -46,8 +46,8 @@ class Wave {
   }
 
  private:
-  // Records a kernel if the switches need it, in as many workgroups as the plan has written, or in
-  // one.
+  // Records a kernel if the switches need it, with the number of workgroups that the plan has
+  // written, or with one.
   template <class K, WaveSize kSize = nullptr, class Buffers>
   void run(const Buffers& buffers) const {
     static constexpr Stage stage = stage_of(IndexOf<K>::value, kSize);

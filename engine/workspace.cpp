@@ -14,8 +14,8 @@ constexpr VkDeviceSize kAlignment = 256;
 using Ranges = std::array<VkhMemory, VKH_MAX_RANGES>;
 
 // Hands out one stream after the other; without buffers it only adds up. A stream that does not fit
-// an allocation goes to the next range; one that is larger than any, and the rest, to a range of
-// its own.
+// an allocation goes to the next range. A stream that is larger than any allocation has a range to
+// itself, and the streams after it go to the next one.
 class Suballocator {
  public:
   explicit Suballocator(const Ranges& memory) : memory_(memory) {}
@@ -150,7 +150,7 @@ void list(Suballocator& take, Workspace& w, uint32_t vertex_count, uint32_t face
 void list(Suballocator& take, SurveyStreams& s, uint32_t face_count, uint32_t capacity) {
   take(s.weights, face_count);
   take(s.faces_reached, face_count);
-  take(s.faces_told, face_count);
+  take(s.face_errors, face_count);
   take(s.cells, capacity);
   take(s.bounds, capacity);
   take(s.classes, capacity);
@@ -164,7 +164,7 @@ void list(Suballocator& take, SurveyStreams& s, uint32_t face_count, uint32_t ca
   take(s.wave, 1);
 }
 
-// As kMaySplitTwice of shaders/wave/split_counts.glsl.
+// The same as kMaySplitTwice of shaders/wave/split_counts.glsl.
 bool may_split_twice(uint32_t switches) {
   return (switches & (gpu::kUseSplitTwice | gpu::kUseFilter | gpu::kUsePacket)) ==
          gpu::kUseSplitTwice;
@@ -227,7 +227,7 @@ VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t
 uint32_t largest_capacity(const Limits& limits) {
   const VkDeviceSize places = limits.storage_range / sizeof(gpu::Candidate);
   VkDeviceSize reach = places / 2;
-  // Subroots behind the halves: a quarter of one half, or so many: what fits either way fits.
+  // Subroots stand behind the halves: a quarter of one half, or kMostSubroots, whichever is less.
   if (gpu::has_subroots(limits.switches, limits.wide)) {
     constexpr VkDeviceSize most = gpu::kMostSubroots;
     reach = std::max(4 * places / 9, places > most ? (places - most) / 2 : 0);
@@ -236,7 +236,7 @@ uint32_t largest_capacity(const Limits& limits) {
 }
 
 // A frontier is refined whole while four times its length fits; few pairs of meshes hold more than
-// 2^18 candidates at once, and few faces no more than some thousand each.
+// 2^18 candidates at once, and a mesh of few faces holds at most some thousand per face.
 uint32_t recommended_capacity(uint32_t face_count) {
   constexpr uint32_t kOfFace = 1u << 12, kOfPair = 1u << 20;
   return std::max(5 * face_count, kOfFace * std::min(face_count, kOfPair / kOfFace));
@@ -249,7 +249,7 @@ uint32_t recommended_capacity(uint32_t face_count) {
 // (shaders/wave/room.glsl). Without that room a small pair takes up to twice as many waves, and
 // waves are most of its time. Few faces may hold more candidates than faces: 80 faces of a coarse
 // ball against a fine one hold 1,052. By waves, --gpu-profile: 20,480 places cost that pair 1.2
-// times the waves and balls of 1,280 faces 1.57 times; 28,672 cost neither any.
+// times the waves and balls of 1,280 faces 1.57 times; 28,672 cost neither more waves.
 uint32_t compact_capacity(const Limits& limits, uint32_t face_count) {
   constexpr uint32_t kOfFew = 512, kFew = 64, kOfFace = 24;
   constexpr uint32_t kMostFaces = (20 * gpu::kSplitTwiceParents + 1024) / kOfFace;

@@ -40,7 +40,7 @@ struct Hierarchy {
 struct SortStreams {
   Slice<uint32_t> keys[2], values[2];
   Slice<uint32_t> counts, totals;
-  Slice<uint32_t> count;  // the number of keys if the host does not know it: one word
+  Slice<uint32_t> count;  // one word, the number of keys if the host does not know it
 };
 
 // Workgroups that sort `count` keys, `rounds` of them per invocation.
@@ -79,11 +79,11 @@ struct Workspace {
   uint32_t capacity = 0;
 };
 
-// A survey's cells, and what a plan makes of them.
+// A survey's cells, and the data that its kernels derive from them.
 struct SurveyStreams {
   Slice<gpu::Wide> weights;       // of each face of A
   Slice<uint32_t> faces_reached;  // per face of A, floats as bits: some point is at least so far
-  Slice<uint32_t> faces_told;     // what the host asked of each
+  Slice<uint32_t> face_errors;    // per face of A: bounds of its error that the caller reads
   Slice<gpu::Cell> cells;
   Slice<gpu::CellBounds> bounds;         // one per cell
   Slice<uint32_t> classes;               // one per cell
@@ -96,7 +96,7 @@ struct SurveyStreams {
   Slice<gpu::SurveyTable> table;
   Slice<gpu::SurveyWave> wave;
 };
-// A wave splits at most a quarter of the cells that there is room for.
+// A wave splits at most a quarter of the cells that fit.
 constexpr uint32_t survey_parents(uint32_t capacity) { return capacity / 4 + 1; }
 VkDeviceSize survey_size(uint32_t face_count, uint32_t capacity);
 // The most cells that the device's bindings reach.
@@ -114,7 +114,7 @@ inline Slice<gpu::Dispatch> size_at(const Slice<gpu::WaveSizes>& sizes, WaveSize
 
 // Bytes of the frontier's stream.
 uint64_t frontier_places(uint64_t capacity, uint32_t switches);
-// Boxes of all levels of the pyramid over `face_count` triangles.
+// The number of boxes in all levels of the pyramid over `face_count` triangles.
 uint32_t pyramid_size(uint32_t face_count);
 // The boxes of the levels between them, over four boxes of a level each.
 uint32_t quads_size(uint32_t face_count);
@@ -127,7 +127,7 @@ struct StreamSizes {
 };
 StreamSizes hierarchy_size(const Limits& limits, uint32_t vertex_count, uint32_t face_count);
 StreamSizes scratch_size(uint32_t face_count);
-// `switches`: of the context, for some have streams of their own.
+// `switches`: of the context, since some add streams.
 VkDeviceSize workspace_size(uint32_t vertex_count, uint32_t face_count, uint32_t capacity,
                             uint32_t switches);
 
@@ -139,7 +139,7 @@ uint32_t largest_capacity(const Limits& limits);
 // The capacity of a small workspace that costs most runs little time: as a rule no more waves than
 // the recommended one.
 uint32_t compact_capacity(const Limits& limits, uint32_t face_count);
-// The capacity that a run starts well with.
+// A good capacity for a run to start with.
 uint32_t recommended_capacity(uint32_t face_count);
 constexpr uint32_t kSmallestCapacity = 4 * gpu::kReserve;
 

@@ -42,17 +42,19 @@ VKH_CONST uint kMaxGroupsX =
 // Invocations of query: one query each, or one for all if a wave has few queries.
 VKH_CONST uint kQueryGroup = 64u;
 // The points of its queries.
-VKH_CONST uint kAskPoints = 0u;                    // the wave's new points
-VKH_CONST uint kAskCentroids = 1u;                 // the centroids of its survivors
-VKH_CONST uint kAskVertices = 2u;                  // of A, in plain floats
-VKH_CONST uint kAskVerticesAgain = 3u;             // to 48 bits above the base
-VKH_CONST uint kGroupTraversalQueries = 1u << 12;  // up to so many are few: 2^12 and 2^13 are
-                                                   // alike on an H200, 2^11 and 2^14 slower
-// Vertices of A, whose traversals start from nowhere: the group's is long, too.
+VKH_CONST uint kAskPoints = 0u;         // the wave's new points
+VKH_CONST uint kAskCentroids = 1u;      // the centroids of its survivors
+VKH_CONST uint kAskVertices = 2u;       // of A, in plain floats
+VKH_CONST uint kAskVerticesAgain = 3u;  // to 48 bits above the base
+VKH_CONST uint kGroupTraversalQueries =
+    1u
+    << 12;  // at most this many are few: 2^12 and 2^13 are alike on an H200, 2^11 and 2^14 slower
+// The same for vertices of A, whose traversals have no start triangle: there a group's is long,
+// too.
 VKH_CONST uint kGroupTraversalVertices = 1u << 11;
 // Boxes of a level that a group holds; more: each alone.
 VKH_CONST uint kGroupTraversalBoxes = 512u;
-VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most so many triangles is a leaf
+VKH_CONST uint kLeafTriangles = 4u;      // a subtree of at most this many triangles is a leaf
 VKH_CONST uint kLeafFlag = 0x80000000u;  // Node::child: leaf; bits 28..30 hold its triangle count -
                                          // 1, bits 0..27 the first
 VKH_CONST uint kNarrowestSubgroup = 4u;  // width on a CPU with vectors of 128 bits
@@ -62,8 +64,8 @@ VKH_CONST uint kBoxGroup = 256u;
 VKH_CONST uint kBoxFaces = 4u;
 // Boxes of runs of triangles: level l + 1 of the pyramid joins kPyramidFan neighbours of level l.
 VKH_CONST uint kPyramidFan = 16u;
-// Items of a level whose boxes a workgroup joins: two levels of the pyramid, and between them those
-// over four boxes each, which bvh_refit alone reads.
+// Items of a level whose boxes a workgroup joins: two levels of the pyramid, and between them the
+// levels over four boxes each, which only bvh_refit reads.
 VKH_CONST uint kRun = 256u;
 VKH_CONST uint kMaxTriangles = 1u << 28;
 // Depth of the BVH: a prefix of the 60-bit key (30 Morton bits, then 30 index bits) grows by at
@@ -109,7 +111,7 @@ VKH_CONST uint kUseInputCheck = 1u << 19;
 VKH_CONST uint kUseClosest = 1u << 20;
 VKH_CONST uint kAddsKernels = kUseField | kUseInputCheck | kUseClosest;
 #endif
-// The most subroots: a quarter of the frontier's capacity, and no more than this. Most runs have
+// The most subroots: a quarter of the frontier's capacity, but at most this many. Most runs have
 // tens.
 VKH_CONST uint kMostSubroots = 1u << 14;
 
@@ -158,7 +160,7 @@ VKH_CONST uint kMaxCount = 6u;
 VKH_CONST uint kCountFrontier = 0u;   // candidates being read
 VKH_CONST uint kCountNext = 1u;       // candidates being written
 VKH_CONST uint kCountSurvivors = 2u;  // candidates past the filter in this wave
-VKH_CONST uint kCountRefined = 3u;   // where some are deferred: refined ones that have their place,
+VKH_CONST uint kCountRefined = 3u;  // if some are deferred: the refined ones that have their place,
 VKH_CONST uint kCountDeferred = 4u;  // and deferred ones
 VKH_CONST uint kCountCount = 5u;
 
@@ -169,19 +171,19 @@ VKH_CONST uint kSortRounds = 8u;
 VKH_CONST uint kFewestSortRounds = 2u;
 VKH_CONST uint kSortBlock = kSortGroup * kSortRounds;
 VKH_CONST uint kSortDigits = 256u;
-// Up to so many faces are told apart well enough by 24 bits of their codes: the lowest 6 are 0, and
-// are not sorted by.
+// Up to this many faces, 24 bits of their codes tell faces apart well enough: the lowest 6 bits are
+// 0, and the sort skips them.
 VKH_CONST uint kFewFaces = 1u << 16;
 VKH_CONST uint kFewFacesFirstBit = 6u;
-// Up to so many blocks, sort_scatter sums the counts itself: a dispatch less per pass.
+// Up to this many blocks, sort_scatter sums the counts itself, which saves a dispatch per pass.
 VKH_CONST uint kSortFewBlocks = 64u;
 
 // The frontier's sort key: defer | mode | morton30 (docs/method.md, eq. 4).
 VKH_CONST uint kKeyDeferred = 0x80000000u;
 VKH_CONST uint kKeyThin = 0x40000000u;
-// Frontiers of fewer candidates are not sorted unless a run sets otherwise. An H200 wins nothing by
-// sorting (80 pairs, from 1, 2^12, 2^14, 2^16, 2^18: 134, 128, 124, 121, 120 ms; 91 without the
-// switch, whose dispatches cost even if they are empty).
+// Frontiers of fewer candidates are not sorted unless a run sets another number. An H200 gains
+// nothing by sorting (80 pairs, from 1, 2^12, 2^14, 2^16, 2^18: 134, 128, 124, 121, 120 ms; 91
+// without the switch, whose dispatches cost even if they are empty).
 VKH_CONST uint kSortFrom = 1u << 14;
 
 // Candidates that stay free in the frontier unless a single one is refined. Candidates with the
@@ -199,8 +201,9 @@ VKH_CONST float kUnmeasured = 3.0e38f;
 // wave_subdivide: invocations per candidate in the GPU profile, and if it is split twice.
 VKH_CONST uint kSplitLanes = 4u;
 VKH_CONST uint kSplitTwiceLanes = 16u;
-// Up to so many candidates are split twice: a wave of few takes as long as its chain of steps, so
-// half as many waves are worth twice the work. Measured on an H200 (docs/log/measurements.md).
+// Up to this many candidates are split twice: a wave of few candidates takes as long as its chain
+// of steps, so half as many waves are worth twice the work. Measured on an H200
+// (docs/log/measurements.md).
 VKH_CONST uint kSplitTwiceParents = 8192u;
 
 // wave_bound: children that one workgroup of kGroupSize bounds together; fewer if a wave is small,
@@ -228,8 +231,9 @@ VKH_CONST uint kScoreBins = 2048u;
 VKH_CONST uint kSurveyBlock = 1024u;
 // Workgroups of a kernel that goes over all cells, at most.
 VKH_CONST uint kSurveyGroups = 1024u;
-// SurveyTable::sums: for each edge the area of cells that it cuts, and of those that are the first
-// time all within it; as it surely is, and perhaps.
+// SurveyTable::sums: for each edge, the area of the cells that it cuts, and of the cells for which
+// it is the first edge that they lie within; the part that surely is within it, and the part that
+// may be.
 VKH_CONST uint kSurelyPart = 0u;
 VKH_CONST uint kSurelyWhole = kSurveyEdges;
 VKH_CONST uint kPerhapsPart = 2u * kSurveyEdges;
@@ -251,7 +255,7 @@ VKH_CONST uint kClassMany = 7u;        // more faces may be closest than are loo
 // Or whether B's normals were compared with A's there.
 VKH_CONST uint kClassCompared = 8u;
 VKH_CONST uint kAllClasses = 0x1ffu;  // a set of classes has a bit for each
-// What a side has to know of a face of B.
+// Kinds of faces of B, for sides.
 VKH_CONST uint kFaceCovered = 1u;   // a segment or a point of other faces
 VKH_CONST uint kFaceBare = 2u;      // a segment or a point that is of no other face
 VKH_CONST uint kFaceTwoSided = 4u;  // another face has the same corners in the opposite order
@@ -259,11 +263,11 @@ VKH_CONST uint kFaceTwoSided = 4u;  // another face has the same corners in the 
 // and how many of them to 48 bits.
 VKH_CONST uint kClosestTriangles = 1u << 16;
 VKH_CONST uint kClosestSharp = 1u << 10;
-// ClosestFace::lower_above where a driver ended the search early: nothing is known from below.
+// ClosestFace::lower_above if a driver ended the search early: there is no lower bound.
 VKH_CONST float kSearchEnded = -3.0e38f;
 
-// A mesh's fault is kNone, the least face of it that is no triangle, or this: its VkhMesh describes
-// none, which is known at recording.
+// A mesh's fault is kNone, its least face that is no triangle, or this: its VkhMesh describes no
+// mesh, which is known at recording.
 VKH_CONST uint kFaultLayout = 0xfffffffeu;
 // Largest coordinate that the error analysis covers, as the bits of a float: 2^15.
 VKH_CONST uint kLargestCoordinate = 0x47000000u;
@@ -476,7 +480,7 @@ struct CellBounds {
   float lower_a, lower_b, lower_c;
   float upper_a, upper_b, upper_c;
   float highest;                // >= d(x, B) for every x of it
-  float reached;                // some x of it is at least so far
+  float reached;                // some x of it is at least this far
   float mean_upper;             // >= the mean
   float square_upper;           // >= the mean of the square
   uint face_a, face_b, face_c;  // of B, as given: near its corners
@@ -494,7 +498,7 @@ struct CellAgreement {
 // A face's unit normal. Corners of one number lie at one place, as they were given.
 struct FaceNormal {
   vec3 along;
-  float off;      // so far may the exact one be from it; 1: the face has none
+  float off;      // the exact normal is at most this far from it; 1: the face has none
   uvec3 corners;  // of a face of B
 };
 
@@ -503,7 +507,7 @@ struct Wide {
   uint low, high;
 };
 
-// A distance that is not known better than that.
+// A distance that is only known to lie between two floats.
 struct SurveyEdge {
   float down, up;
 };
@@ -534,7 +538,7 @@ struct SurveyPlan {
   SurveyEdge most;                 // a distance beyond it counts as 0 in means and mean squares
   SurveyEdge edges[kSurveyEdges];  // of the tally
   SurveyEdge open[kSurveyOpen];    // area that is undecided there scores
-  float shares[kSurveyOpen];       // so much,
+  float shares[kSurveyOpen];       // by this factor,
   uint open_classes[kSurveyOpen];  // on cells of these classes
 };
 
@@ -543,25 +547,25 @@ struct SurveyTable {
   Wide sums[kSurveySums];
   uint highest;     // the largest distance from above, as bits
   uint not_lowest;  // the least one from below: the bits' complement
-  uint reached;     // some point of a cell that counts is so far: bits
+  uint reached;     // some point of a cell that counts is this far: bits
   uint not_far;     // the complement of the first cell that reaches SurveyPlan::far; 0: none does
 };
 
-// Cells of a block, or of those before it: those above a key, and those with the key.
+// The number of cells above a key, and with the key, of a block or of all blocks before it.
 struct SurveyCounts {
   uint above, ties;
 };
 
-// How a survey stands; the first members are VkhSurveyReport. And what its last wave has split.
+// The state of a survey, whose first members are VkhSurveyReport, and what its last wave has split.
 struct SurveyWave {
   uint status;  // kStatus*
   uint waves;   // that have split cells
   uint cells;
   uint open;   // cells that a split may help
   uint live;   // cells before the split,
-  uint key;    // of which those with a larger one were split,
-  uint ties;   // and so many that have this one
-  uint above;  // cells with a larger one
+  uint key;    // cells with a larger key were split,
+  uint ties;   // and this many cells with this key
+  uint above;  // the number of cells with a larger key
   uint parts;  // of each: 2 or 4, the first in its place; 1: A's faces are the cells
   uint fresh;  // cells without bounds of their own: all parts, or A's faces
 };
@@ -591,7 +595,7 @@ struct SelfTestAnswer {
   uint subgroup;  // number of the invocation's subgroup, in order of arrival
   float highest;  // |a| in the subgroup
   uint keepers;   // invocations of the subgroup with a > b,
-  uint rank;      // and of them those before this one
+  uint rank;      // and how many of them come before this one
 };
 
 // Results of each subgroup operation that a kernel uses, over the invocations in `ballot`, which
@@ -653,7 +657,7 @@ struct LoadPush {
   uint index_is_16bit;
   uint has_low;     // low parts are given,
   uint low_word;    // and start here, with the same stride
-  uint fault_word;  // mesh_check alone: the word that it writes
+  uint fault_word;  // only mesh_check: the word that it writes
 };
 
 struct CountPush {
@@ -732,7 +736,7 @@ struct SurveySidesPush {
   uint face_count;      // of A
   uint triangle_count;  // of B
   float above;          // cells that are nowhere farther from B are left out
-  float moved;          // vertices may be so far from where they are stored, those of A and of B
+  float moved;          // A's and B's vertices may be this far from where they are stored, together
   uint is_solid;        // B winds `front` times round all points in front of it,
   int front;            // and one time more or less round all others
 };
@@ -742,13 +746,13 @@ struct SurveyNormalsPush {
   uint first, end;             // the cells from the first one to the one before the end
   uint face_count;             // of A
   uint triangle_count;         // of B
-  float moved;                 // vertices may be so far from where they are stored
+  float moved;                 // both meshes' vertices together may be this far off their places
   float limit_down, limit_up;  // normals agree from this cosine on
 };
 
 // survey_faces
 struct SurveyFacesPush {
-  uint classes;  // of those that count
+  uint classes;  // of the cells that count
   uint reached;  // 1: what their points reach is wanted, 0: what none exceeds
 };
 
@@ -756,7 +760,7 @@ struct SurveyFacesPush {
 struct SurveyChoosePush {
   uint capacity;  // cells that there is room for
   uint most;      // cells that a wave may split
-  uint splits;    // 0: nothing is chosen, and the wave only tells how the survey stands
+  uint splits;    // 0: nothing is chosen; the wave only finds the survey's status
 };
 
 // closest_faces

@@ -47,7 +47,7 @@ VKH_PREDICATE(bounds_besides, (kSwitches & kUseBesides) != 0u)
 // The sizes of a wave's indirect dispatches, in the order in which they run. The plan writes each
 // that is needed (wave/sizes.glsl).
 struct WaveSizes {
-  // The order of the frontier: if sorts_frontier.
+  // The order of the frontier, if sorts_frontier.
   Dispatch sort_keys;
   Dispatch sort_blocks;
   Dispatch sort_digits;
@@ -56,9 +56,9 @@ struct WaveSizes {
   Dispatch subdivide;
   Dispatch packet;
   Dispatch query_points;
-  // The cheap bounds of all children, if more follows for those that they leave.
+  // The cheap bounds of all children, if there is a filter.
   Dispatch filter_all;
-  // The bounds of all children, or of those past the filter.
+  // The bounds of all children, or of the children that the filter leaves.
   Dispatch query_centroids;
   Dispatch bisect;
   Dispatch bound_besides;

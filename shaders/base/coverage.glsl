@@ -1,6 +1,6 @@
 // For --verify: the part of each face of A that has been closed, as an exact 64-bit integer, in
 // units of 2^-40 of the face. A part that became a subroot (wave/subroot.glsl) counts as
-// closed from then on, and is not counted again. All of it compiles to nothing if kUseCoverage is
+// closed from then on, and is not counted again. All of this compiles to nothing if kUseCoverage is
 // off. The kernel declares `areas`, `control`.
 #ifndef VKH_SHADERS_BASE_COVERAGE_GLSL
 #define VKH_SHADERS_BASE_COVERAGE_GLSL
@@ -20,8 +20,8 @@ Area area_of(Bary3 t) {
   return Area(uint(lo0) - uint(lo1), uint(hi0) - uint(hi1) - borrow);
 }
 
-// Adds in two words of 32 bits: every addition that wraps the low one carries, whatever their
-// order.
+// Adds in two words of 32 bits: every addition that wraps the low one carries, so their order does
+// not matter.
 void add_area(uint at, Bary3 t) {
   Area area = area_of(t);
   uint before = atomicAdd(areas[at].lo, area.lo);

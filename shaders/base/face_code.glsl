@@ -1,5 +1,5 @@
 // The place of a face in Morton order: by the middle of its box, which does not depend on the order
-// of its corners. It is for order only: nothing certified rests on it.
+// of its corners. It only orders: nothing certified rests on it.
 #ifndef VKH_SHADERS_BASE_FACE_CODE_GLSL
 #define VKH_SHADERS_BASE_FACE_CODE_GLSL
 

@@ -1,5 +1,5 @@
-// Finds the last workgroup of a dispatch to reach a point: it sees all that the others have written
-// by then, by atomics or to coherent buffers, if it reads it in the same way. The kernel
+// Finds the last workgroup of a dispatch to reach a point: it sees everything that the others have
+// written before, by atomics or to coherent buffers, if it reads in the same way. The kernel
 // declares `groups_done`, which counts them.
 #ifndef VKH_SHADERS_BASE_LAST_GROUP_GLSL
 #define VKH_SHADERS_BASE_LAST_GROUP_GLSL

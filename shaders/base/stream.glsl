@@ -1,6 +1,6 @@
 // Functions that append to streams and raise maxima in the control block, one atomic per subgroup.
 // They read the subgroup's size, and never assume it. Every invocation of the subgroup calls these
-// together; one that has nothing to give passes false or 0. The kernel declares `control`.
+// together; an invocation without a value passes false or 0. The kernel declares `control`.
 #ifndef VKH_SHADERS_BASE_STREAM_GLSL
 #define VKH_SHADERS_BASE_STREAM_GLSL
 

@@ -41,7 +41,7 @@ bool is_corner(Two3 p, Exact t) {
 }
 
 // Whether each corner of a triangle is one of triangle i: then it lies in triangle i, and its
-// distance from B is 0 whatever the rounding.
+// distance from B is 0, however distances round.
 bool lies_in(Two3 p, Two3 q, Two3 r, uint i) {
   Exact t = load_exact(i);
   return is_corner(p, t) && is_corner(q, t) && is_corner(r, t);

@@ -23,8 +23,8 @@ int prefix(int i, int j) {
   return 32 + 31 - findMSB(uint(i ^ j));
 }
 
-// Searches probe several places at a time, whose loads do not wait for each other: the longest
-// chain of one invocation is what a small mesh takes.
+// Searches probe several places at a time, whose loads do not wait for each other: for a small mesh
+// the longest chain of one invocation decides the time.
 const int kProbes = 3;
 
 // The largest s under `span` with prefix(i, i + s * direction) > least, where that holds for 0, not

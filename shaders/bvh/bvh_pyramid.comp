@@ -1,7 +1,7 @@
-// Computes levels of the pyramid of boxes over the sorted triangles, from one of them: over runs of
-// 4, 16, 64 and 256 of its boxes, and by the last workgroup those above. In: that level in boxes.
-// Out: those above it in boxes. The levels over the triangles themselves are written by the kernels
-// that write these (bvh_leaves, bvh_move).
+// Computes levels of the pyramid of boxes over the sorted triangles, from one level: over runs of
+// 4, 16, 64 and 256 of its boxes, and, by the last workgroup, the levels above these. In: the one
+// level, in boxes. Out: the levels above it, in boxes. The kernels that write the triangles also
+// write the levels over them (bvh_leaves, bvh_move).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

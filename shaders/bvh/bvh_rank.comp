@@ -1,8 +1,9 @@
-// Chooses, for a large B, the branches that are nodes, and their places: those at even depth that
-// are no leaf, half of the triangles at most (nodes_of, engine/workspace.cpp); in a smaller B every
-// branch has a place. There is one invocation per branch, which goes down to its branch from the
-// root; places are given as invocations come, after the root's, and nothing but memory depends on
-// their order. In: branches; next_rank = 1. Out: ranks, kNone where a branch is no node.
+// Chooses, for a large B, the branches that are nodes, and their places. Nodes are the branches at
+// even depth that are no leaf: at most half as many as triangles (nodes_of, engine/workspace.cpp).
+// In a smaller B every branch has a place. There is one invocation per branch, which goes down to
+// its branch from the root. Places are given out in the order in which invocations come, after the
+// root's; nothing but their place in memory depends on that order. In: branches; next_rank = 1.
+// Out: ranks, kNone where a branch is no node.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -17,14 +18,14 @@ layout(scalar, binding = 1) writeonly buffer Ranks { uint ranks[]; };
 layout(scalar, binding = 2) buffer NextRank { uint next_rank; };
 layout(scalar, push_constant) uniform PushBlock { CountPush push; };
 
-// The last triangle of the branch's first child, whose own branch would be that one.
+// The last triangle of the branch's first child, which is also the number of that child's branch.
 uint split_of(Branch branch) {
   uint child = branch.child0;
   if ((child & kLeafFlag) == 0u) return child;
   return (child & (kMaxTriangles - 1u)) + ((child >> 28) & 7u);
 }
 
-// Called for a branch that is no leaf: no branch around it is one, either.
+// Called for a branch that is no leaf, so that no branch above it is a leaf.
 bool is_at_even_depth(uint i, uint last) {
   uint at = 0u;
   uint depth = 0u;

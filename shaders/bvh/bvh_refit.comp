@@ -25,8 +25,8 @@ struct Range {
   uint first, last;
 };
 
-// A range of up to twice so many is covered by so many from either end, and fewer are left over at
-// either end of the boxes of four.
+// A range of up to 2 kEnd boxes is covered by kEnd boxes from either end. In a larger range, at
+// most kEnd boxes are left over at either end of its boxes of four.
 const uint kEnd = 3u;
 
 Box box_of_triangle(uint i) {
@@ -42,8 +42,8 @@ Box box_at(uint i) {
   return Box(vec3(x, y.x), vec3(y.y, z));
 }
 
-// The ends of a range of triangles, and of boxes of the level that starts at `start`. A box that is
-// joined twice does no harm, and so no load waits for another or for a test.
+// The ends of a range of triangles, and of boxes of the level that starts at `start`. Joining a box
+// twice does no harm, so no load waits for another or for a test.
 Box triangle_ends(Range r) {
   Box b = empty_box();
   for (uint k = 0u; k < kEnd; ++k) {
@@ -62,7 +62,7 @@ Box box_ends(uint start, Range r) {
   return b;
 }
 
-// The boxes of four that lie in a range of more than 2 * kEnd: there is one.
+// The boxes of four that lie in a range of more than 2 * kEnd boxes, which has at least one.
 Range fours_within(Range r) { return Range((r.first + 3u) / 4u, (r.last + 1u) / 4u - 1u); }
 
 Box range_box(Range r) {

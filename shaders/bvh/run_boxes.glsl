@@ -1,7 +1,7 @@
-// The boxes over a workgroup's run of kRun neighbours of one level of the pyramid: of 4, 16, 64 and
-// 256 of them; if a run holds all of the level over 256, the last workgroup to end computes those
-// over them, too. The workgroup has kRun invocations. The kernel declares `boxes`, coherent, and
-// `groups_done`.
+// The boxes over a workgroup's run of kRun neighbours of one level of the pyramid: over 4, 16, 64
+// and 256 neighbours. If one run holds the whole level over 256, the last workgroup to end also
+// computes the boxes above that level. The workgroup has kRun invocations. The kernel declares
+// `boxes`, coherent, and `groups_done`.
 #ifndef VKH_SHADERS_BVH_RUN_BOXES_GLSL
 #define VKH_SHADERS_BVH_RUN_BOXES_GLSL
 
@@ -9,7 +9,7 @@
 #include "shaders/base/invocation.glsl"
 #include "shaders/base/last_group.glsl"
 
-// The boxes of 1 item, then those of 4, 16 and 64, each at its level's start.
+// The boxes of 1 item, then of 4, 16 and 64, each at its level's start.
 shared Box run_boxes[kRun + kRun / 4u + kRun / 16u + kRun / 64u];
 
 uint fours(uint count) { return (count + 3u) / 4u; }
@@ -36,7 +36,7 @@ void write_run(uint run, Box own, uint count, uint quads, uint sixteens) {
       if (level < 3u) run_boxes[above + lane] = b;
       if (i < count) boxes[quads + i] = b;
     }
-    // The next level is of the other kind: each starts behind the last of its own.
+    // The next level is of the other kind; each level starts behind the last one of its kind.
     uint other = sixteens;
     sixteens = quads + count;
     quads = other;

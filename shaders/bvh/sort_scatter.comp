@@ -117,13 +117,14 @@ void load_run(uint run) {
   }
 }
 
-// For each key, the number of keys of its digit before it in the runs of those that share its row.
+// Finds, for each key, the number of keys of its digit that stand before it in the runs of the
+// subgroups that share its row.
 void rank_run(uint run) {
   uint row = row_of_subgroup() * kRow;
   for (uint round = 0u; round < kSortRounds; ++round) {
     if (round >= push.rounds) continue;
-    // Past the end every key counts as the last digit: such lanes stand after all others and push
-    // none of them away.
+    // Past the end every key counts as the last digit: such lanes come after all others and move
+    // none of them.
     bool there = run + round * gl_SubgroupSize < total;
     uint digit = there ? (key[round] >> push.shift) & 255u : 255u;
     uvec4 peers = peers_of(digit);

@@ -5,8 +5,8 @@
 
 #include "shaders/bvh/box.glsl"
 
-// Returns its box. The number is clamped: whatever the sort did, a triangle is one of B, and upper
-// bounds from it are true.
+// Returns its box. The number is clamped: even if the sort went wrong, the triangle is one of B,
+// and upper bounds from it are true.
 Box store_triangle(uint i, uint face) {
   face = min(face, push.count - 1u);
   uvec3 f = faces[face];

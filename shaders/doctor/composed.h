@@ -1,5 +1,5 @@
 // The expressions that bounds are composed of, once each, for the doctor: a driver that regroups
-// sums would falsify them, though every single operation of it rounds as it should.
+// sums would falsify them, even if each of its operations rounds as it should.
 #ifndef VKH_SHADERS_DOCTOR_COMPOSED_H
 #define VKH_SHADERS_DOCTOR_COMPOSED_H
 

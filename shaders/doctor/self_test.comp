@@ -99,7 +99,7 @@ void main() {
   answer.keepers = subgroupBallotBitCount(subgroupBallot(keep));
   answer.rank = subgroupBallotExclusiveBitCount(subgroupBallot(keep));
   answers[i] = answer;
-  // All of a workgroup has an item, or none has.
+  // Either every invocation of a workgroup has an item, or none has.
   if (i < groups.length()) groups[i] = look_around_everywhere(answer.subgroup, i, questions[i]);
   if (i < operands.length()) results[i] = ask_composed(operands[i]);
   atomicMax(totals.highest, floatBitsToUint(abs(a)));

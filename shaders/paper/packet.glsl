@@ -34,7 +34,7 @@ float least_of(vec3 distance2, uint mask) {
   return min(x, min(y, z));
 }
 
-// The points of a packet do not wait for each other's ties.
+// Ties are measured at once, so that the points of a packet do not wait for each other's.
 void try_at_once(Query q, uint i, inout Nearest best) {
   tied_count = 0u;
   try_query(q, i, best);
@@ -71,8 +71,9 @@ uint pop_packet(vec3 reach, out uint mask) {
 }
 
 // Goes from a node to the child that is nearest to a point that it may improve; the others are
-// left, with their distances, from which the mask is taken anew when they are popped: meanwhile
-// points may have come nearer. `unasked`: farther than any reach for points that are not queried.
+// left, with their distances. When one is popped, its mask is computed again, since nearer
+// triangles may have been found by then. `unasked`: farther than any reach, for points that are not
+// queried.
 uint step_packet(uint at, vec3 unasked, Packet p, inout uint mask) {
   uint next = kNone;
   uint next_mask = 0u;

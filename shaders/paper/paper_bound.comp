@@ -1,6 +1,5 @@
-// Does the work of wave_bound, and computes two bounds of the paper besides: its u3, which
-// wave_bisect has found, and u4. It replaces wave_bound if a switch selects one; the wave is then
-// never fused.
+// Does the work of wave_bound, and adds two bounds of the paper: its u3, which wave_bisect has
+// found, and u4. It replaces wave_bound if a switch selects one; the wave is then never fused.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -1,8 +1,8 @@
 // Computes the sort keys of the frontier, defer | mode | morton30 of the centroid (docs/method.md,
 // eq. 4), and the places of its candidates. In: the frontier's reading half, the plan's selection.
-// Out: keys[i], values[i] = i. Once sorted, the wave's parents come first, those that midpoints
-// split before the thin ones, neighbours next to each other; those that wait for a later wave come
-// last.
+// Out: keys[i], values[i] = i. Once sorted, the wave's parents come first: candidates that are
+// split at midpoints, and then thin ones, with neighbours next to each other. Candidates that wait
+// for a later wave come last.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

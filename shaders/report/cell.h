@@ -47,7 +47,7 @@ VKH_FN CellFrame make_cell(Root root, Bary3 t) {
   return cell;
 }
 
-// The view from which B's triangles are measured: coarse, whatever their slack.
+// The view from which B's triangles are measured: coarse, for any slack.
 VKH_FN View cell_view(CellFrame cell) {
   View v;
   v.origin = cell.origin;

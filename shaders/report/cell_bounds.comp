@@ -1,10 +1,10 @@
 // Bounds d(x, B) over cells of A, one item per cell: sub-triangles of its faces; faces push.first
 // and after; or a survey's new cells, of which wave tells the places. In: cells, wave; A and B's
 // BVH. Out: bounds[cell], and of a survey's cell its start and its face's faces_reached, a float as
-// bits. One traversal finds the triangle nearest to the cell's middle; another examines all that
-// may be closest somewhere on the cell (report/cell.h), kCellTriangles of them at most; boxes stand
-// for the rest. Each result depends on its cell alone. If A or B is no mesh, or if there is no run
-// (push.triangle_count is 0), bounds are NaN.
+// bits. One traversal finds the triangle nearest to the cell's middle; another examines the
+// triangles that may be closest somewhere on the cell (report/cell.h), at most kCellTriangles of
+// them; boxes stand for the rest. Each result depends on its cell alone. If A or B is no mesh, or
+// if there is no run (push.triangle_count is 0), bounds are NaN.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -81,10 +81,10 @@ Gathered with_boxes(Gathered g, CellFrame t, float reach, inout uint to_go) {
   return g;
 }
 
-// Goes over all that may be closest somewhere on the cell. Bounds from below need all that is
-// within reach, and drivers may end a loop early (docs/certificate.md, 'Loops that a driver ends'):
-// the loops' work is counted, and not by the variable that ends them, which compilers take as known
-// behind them.
+// Goes over all triangles that may be closest somewhere on the cell. Bounds from below need all
+// that is within reach, and drivers may end a loop early (docs/certificate.md, 'Loops that a driver
+// ends'): the loops' work is counted, and not by the variable that ends them, which compilers take
+// as known behind them.
 Gathered gather(CellFrame t, uint start) {
   Query middle = Query(t.origin, 0.0, false, false);
   if (start != kNone) start = min(start, push.triangle_count - 1u);
@@ -153,7 +153,8 @@ CellBounds bounds_of(Gathered g, CellFrame t) {
   return b;
 }
 
-// No distance over a part of a cell is above the cell's highest, which is there before.
+// Keeps the cell's highest, which is stored before: no distance over a part of the cell is above
+// it.
 CellBounds kept_bounds(CellBounds b, uint place, uint face) {
   b.highest = min(b.highest, bounds[place].highest);
   b.mean_upper = min(b.mean_upper, b.highest);

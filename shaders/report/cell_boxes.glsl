@@ -1,4 +1,4 @@
-// Which boxes of B's hierarchy may hold what is closest somewhere on a cell.
+// Decides which boxes of B's hierarchy may hold a triangle that is closest somewhere on a cell.
 #ifndef VKH_SHADERS_REPORT_CELL_BOXES_GLSL
 #define VKH_SHADERS_REPORT_CELL_BOXES_GLSL
 

@@ -1,5 +1,5 @@
-// Goes through the triangles of B that some boxes hold: those that a ray from a cell meets, or
-// those that may be closest somewhere on the cell. The kernel declares `nodes` and look_at().
+// Goes through the triangles of B in some boxes: the boxes that a ray from a cell meets, or the
+// boxes that may be closest somewhere on the cell. The kernel declares `nodes` and look_at().
 #ifndef VKH_SHADERS_REPORT_CELL_SEARCH_GLSL
 #define VKH_SHADERS_REPORT_CELL_SEARCH_GLSL
 
@@ -10,7 +10,8 @@ const uint kNoAxis = 3u;
 struct Search {
   uint axis;  // of the ray
   vec3 least,
-      most;  // a box that the ray meets does not end before the one, nor begin behind the other
+      most;  // the ray meets a box that does not end before `least` and does not begin behind
+             // `most`
   vec3 centre;
   float reach;  // squared
 };
@@ -33,9 +34,9 @@ bool look_at(uint triangle, Search s, CellFrame t);
 const uint kSearchStack = 3u * kStackDepth / 2u + 1u;
 uint waiting[kSearchStack];
 
-const uint kSeenAll = 0u;     // it looked at all of them,
+const uint kSeenAll = 0u;     // it looked at all triangles,
 const uint kSeenEnough = 1u;  // until look_at() ended it;
-const uint kSeenSome = 2u;    // or at some, since the driver ended it
+const uint kSeenSome = 2u;    // or at some triangles, since the driver ended the loop
 
 // Drivers may end a loop early (docs/certificate.md, 'Loops that a driver ends'): the loop's work
 // is counted, and not by the variable that ends it, which compilers take as known behind it.

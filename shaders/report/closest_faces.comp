@@ -2,9 +2,9 @@
 // distance d; one item per point. In: asked; B's BVH. Out: found[point]. One traversal, in plain
 // floats, finds a triangle that is near; its distance, rounded up, is the reach of another, which
 // bounds the distance of each triangle within it from both sides. Boxes beyond the reach hold
-// nothing that is closer than that triangle, and boxes that are left, where more than
-// kClosestTriangles are within it, stand for what they hold. Each result depends on its point
-// alone. If B is no mesh or was not built (push.triangle_count is 0), ends are NaN.
+// nothing that is closer than that triangle. If more than kClosestTriangles are within the reach,
+// the boxes that are left stand for their triangles. Each result depends on its point alone. If B
+// is no mesh or was not built (push.triangle_count is 0), ends are NaN.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -19,7 +19,7 @@ layout(scalar, binding = 4) readonly buffer Asked { Vertex asked[]; };
 layout(scalar, binding = 5) writeonly buffer Found { ClosestFace found[]; };
 layout(scalar, push_constant) uniform PushBlock { ClosestPush push; };
 
-#define control push  // there is no run: base/surface.glsl reads two_float of it
+#define control push  // there is no run; base/surface.glsl reads only `two_float`
 #include "shaders/traversal/traversal.glsl"
 
 const vec3 kHere = vec3(0.0);  // the point, which is the local origin
@@ -34,7 +34,7 @@ float reach2_of(View from, float within) {
   return min(round_up(far * far, 8.0), 3.0e38);
 }
 
-// A distance that what a box at this distance, squared, holds surely has.
+// A lower bound of the distance of everything in a box that is at this distance, squared.
 float box_distance_down(View from, float distance2) {
   float d = root(min(distance2, 1.0e37));
   return max(round_down(d, 8.0) - box_doubt(from, d), 0.0);
@@ -49,7 +49,7 @@ struct Bounds {
 };
 
 // Bounds the distance of triangle i from both sides: to 48 bits if it may be the closest, unless
-// there were too many such.
+// there were too many of these.
 Bounds examined(Bounds b, View from, uint i) {
   Surface s = load_surface(i, from);
   Closest c = closest_point(kHere, s.at);
@@ -74,9 +74,9 @@ Bounds with_boxes(Bounds b, View from, float reach2, inout uint to_go) {
   return b;
 }
 
-// Examines all within `within`, a distance that triangle `nearest` has at most. Bounds from
-// below need all of them, and drivers may end a loop early (docs/certificate.md, 'Loops that a
-// driver ends'): the loops' work is counted, and not by the variable that ends them, which
+// Examines all triangles within `within`, an upper bound of the distance of triangle `nearest`.
+// Bounds from below need all of them, and drivers may end a loop early (docs/certificate.md, 'Loops
+// that a driver ends'): the loops' work is counted, and not by the variable that ends them, which
 // compilers take as known behind them. The first traversal's early end ends these loops, too.
 Bounds bounds_within(View from, float within, uint nearest) {
   float reach2 = reach2_of(from, within);

@@ -173,7 +173,7 @@ VKH_FN Comparison with_face(Comparison c, Cosine of, float counts, float share) 
   return c;
 }
 
-// As CellAgreement has it.
+// The same members as CellAgreement.
 struct Agreement {
   float least, most, sure, may;
 };

@@ -1,6 +1,6 @@
 // Adds, for --verify, the area of every candidate that is still in the frontier to the open half of
-// `areas`, one item per candidate; those that the plan closed as a whole, deferred or spilled are
-// among them. In: frontier; areas[face_count, 2 face_count) cleared. Out: the same areas.
+// `areas`, one item per candidate, including the candidates that the plan closed as a whole,
+// deferred or spilled. In: frontier; areas[face_count, 2 face_count) cleared. Out: the same areas.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -34,14 +34,14 @@ layout(scalar, push_constant) uniform PushBlock { ReportPush push; };
 #include "shaders/wave/base.glsl"
 #include "shaders/wave/subroot.glsl"
 
-// A corner of B, made of the parts that the run uses.
+// A corner of B: its high part, and its low part if the run uses those.
 Two3 b_corner(uint v) {
   Two3 p = two(b_vertices[v].hi);
   if (control.two_float != 0u) p.lo = b_vertices[v].lo;
   return p;
 }
 
-// A face of A, whatever the coordinates were, or a subroot.
+// The witness's root, clamped to a face of A, or a subroot, even if the coordinates were garbage.
 uint root_of(Witness w) {
   uint subroots = min(control.subroots, most_subroots());
   if (is_subroot(w.root) && w.root - control.face_count < subroots) return w.root;
@@ -151,7 +151,8 @@ void write_report() {
   report.wanted = control.wanted;
 }
 
-// No bound is known: the inputs were no meshes. The faces at fault stand as the witness's.
+// Writes a report without bounds: the inputs were no meshes. The faces at fault take the place of
+// the witness's.
 void write_fault(uint a_fault, uint fault_of_b) {
   report.base = 0.0;
   report.lower = 0.0;

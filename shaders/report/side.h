@@ -51,8 +51,7 @@ VKH_FN int side_of_cell(CellFrame t, Surface s, float moved) {
   return first;
 }
 
-// What is known of d(x, B) on T from above: an affine function by its values at T's corners, and
-// one number.
+// Upper bounds of d(x, B) on T: an affine function by its values at T's corners, and one number.
 struct Above {
   vec3 at_corners;
   float highest;
@@ -90,14 +89,14 @@ VKH_FN vec3 inner_point(CellFrame t, uint turn) {
   return (w.x * a + w.y * b) + w.z * c;
 }
 
-// So much more than 3 kUlp of itself may a coordinate of S's corners be off, as they are seen from
-// inner_point(): coarse_difference leaves 2 kUlp of it and of the point, which is no farther than
-// the radius, and kUlp2 of what both are; then the point's own error.
+// The error, beyond 3 kUlp of itself, of a coordinate of S's corners as seen from inner_point():
+// coarse_difference leaves 2 kUlp of it and of the point, which is no farther than the radius, and
+// kUlp2 of what both are; then the point's own error.
 VKH_FN float inner_off(CellFrame t) {
   return round_up(t.slack + 8.0f * kUlp * t.radius + 4.0f * kUlp2 * t.reach, 4.0f);
 }
 
-// What a triangle adds to the number of times that B winds round the origin, by a ray along x.
+// A triangle's part of the number of times that B winds round the origin, by a ray along x.
 struct Crossing {
   int winding;
   bool is_sure;
@@ -126,7 +125,7 @@ VKH_FN float turn_error(vec3 p, vec3 q, float off) {
   return 10.0f * kUlp * size + 1.001f * off * (sum + 2.0f * off);
 }
 
-// What x w is off, where w is off by `error`, and x by 3 kUlp of itself and by `off`.
+// The error of x w, where w is off by `error`, and x by 3 kUlp of itself and by `off`.
 VKH_FN float product_error(float x, float w, float error, float off) {
   return abs(x) * error + (abs(w) + error) * (8.0f * kUlp * abs(x) + off);
 }

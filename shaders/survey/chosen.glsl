@@ -1,5 +1,5 @@
-// Which cells a wave splits: those with a key above wave.key, and of those with this key the first
-// wave.ties. The kernel declares `keys`, `wave`.
+// Decides which cells a wave splits: all with a key above wave.key, and the first wave.ties cells
+// with this key. The kernel declares `keys`, `wave`.
 #ifndef VKH_SHADERS_SURVEY_CHOSEN_GLSL
 #define VKH_SHADERS_SURVEY_CHOSEN_GLSL
 

@@ -1,5 +1,5 @@
-// How much a split of a cell helps: the cell's part of the widths of the figures that are not yet
-// narrow. A score only steers.
+// Scores: how much a split of a cell helps, as the cell's part of the widths of the figures that
+// are not yet narrow. A score only steers.
 #ifndef VKH_SHADERS_SURVEY_SCORE_H
 #define VKH_SHADERS_SURVEY_SCORE_H
 
@@ -22,12 +22,12 @@ VKH_FN float square_width(TallyBounds b) {
   return max(b.square_upper - square_over_down(b.lower), 0.0f);
 }
 
-// No point of the cell is nearer.
+// A lower bound of the distances of all points of the cell.
 VKH_FN float lowest_of(CellBounds b) {
   return max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);
 }
 
-// What a map draws of a cell: an affine function, by its values at the corners.
+// A cell as a map draws it: an affine function, by its values at the corners.
 struct DrawnCell {
   vec3 at;
   float off;  // >= how far the distance of a point of the cell is from what is drawn there
@@ -75,7 +75,8 @@ VKH_FN float share_of_area(Wide of_face, float of_whole, Bary3 at) {
   return (weight * of_whole) * uintBitsToFloat((127u - halvings_of(at)) << 23);
 }
 
-// So much a cell is in its face's way: by it the face may be farther than it is known to reach.
+// By how much a cell keeps its face open: the face may be this much farther, at the cell, than it
+// is known to reach.
 VKH_FN float face_score(float highest, float reached, float tolerance, float within, float beyond) {
   float above = min((highest - reached) - tolerance, highest - within);
   return choose(reached > beyond, 0.0f, max(above, 0.0f));
@@ -140,7 +141,7 @@ VKH_FN TallyBounds with_normals(TallyBounds b, CellAgreement found, uint of_clas
   return b;
 }
 
-// The width of the mean of a distance that may have either sign, as where no side is known.
+// The width of the mean of a distance of unknown sign, as it is where no side is known.
 VKH_FN float either_width(TallyBounds b) { return 2.0f * b.mean_upper; }
 
 // Keeps what a split leaves of a cell's bounds until its parts have theirs: an affine function

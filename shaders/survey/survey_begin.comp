@@ -1,4 +1,4 @@
-// Makes each face of A a cell, of which nothing is known but that no distance is above `farthest`.
+// Makes each face of A a cell, with the one bound that no distance is above `farthest`.
 // Out: cells, bounds, classes, one per face.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,5 +1,6 @@
 // Chooses what a wave splits into four: the cells of the highest bins, as many as there is room
-// for, of the last bin the first ones. In: histogram. In and out: wave. One workgroup.
+// for. The last bin may not fit whole; its first cells are taken. In: histogram. In and out: wave.
+// One workgroup.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -21,7 +22,7 @@ shared uint key, above, ties;
 uint bin_at(uint place) { return kScoreBins - 1u - place; }
 uint open_at(uint place) { return bin_at(place) == 0u ? 0u : histogram[bin_at(place)]; }
 
-// Counts the cells of the lane's bins, and returns those of the lanes before it.
+// Counts the cells of the lane's bins, and returns the number of cells of the lanes before it.
 uint count_before(uint lane) {
   uint own = 0u;
   for (uint k = 0u; k < kBinsOfLane; ++k) own += open_at(lane * kBinsOfLane + k);

@@ -1,5 +1,5 @@
-// Lists the chosen cells in their order: those above the key, and then those that have it. In:
-// keys, blocks, wave. Out: parents, their places. A workgroup for each block.
+// Lists the chosen cells in their order: the cells above the key, and then the cells with this key.
+// In: keys, blocks, wave. Out: parents, their places. A workgroup for each block.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require

@@ -65,8 +65,8 @@ float excused(CellFrame t, FaceNormal m, uint triangle) {
   return best;
 }
 
-// Drivers may end a loop early (docs/certificate.md): what was seen is counted by what it tells, as
-// no compiler can.
+// Drivers may end a loop early (docs/certificate.md): the work is counted by its results, which no
+// compiler can foresee.
 Agreement compared(CellFrame t, FaceNormal m) {
   Cosine all = Cosine(1.0, 0.0);
   uint seen = 0u;

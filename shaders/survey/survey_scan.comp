@@ -1,4 +1,4 @@
-// Sums the blocks' counts: each block gets those of the blocks before it. In: wave. In and out:
+// Sums the blocks' counts: each block gets the sum over the blocks before it. In: wave. In and out:
 // blocks. One workgroup.
 #version 460
 #extension GL_EXT_scalar_block_layout : require

@@ -1,7 +1,7 @@
 // Scores cells by the plan. In: cells, bounds, classes, agreements, weights, faces_reached (floats
-// as bits), plan, wave. Out: keys, the bins of the cells' scores, and histogram: how many cells
-// each bin has, and its bin 0 how many are in their face's way although no split helps. A workgroup
-// goes over many cells.
+// as bits), plan, wave. Out: keys, the bins of the cells' scores, and histogram, the number of
+// cells in each bin; bin 0 counts the cells that keep their face open although no split helps. A
+// workgroup goes over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -56,7 +56,7 @@ float score_for_face(uint i, float highest, uint of_class) {
 
 struct Key {
   uint bin;
-  bool is_stuck;  // in its face's way, and no split helps
+  bool is_stuck;  // it keeps its face open, and no split helps
 };
 
 Key key_of(uint i) {

@@ -32,7 +32,7 @@ Search search_along(CellFrame t, uint axis) {
   return Search(axis, p - margin, p + (margin + 3.0e37 * ray), p, 0.0);
 }
 
-// What triangles have told so far.
+// The results of the triangles so far.
 struct Told {
   uint of_class;  // by their planes: kClassUnseen if none was looked at
   int winding;

@@ -1,5 +1,5 @@
-// Adds up what cells of the plan's classes tell of A: areas within the plan's edges, means and mean
-// squares. In: cells, bounds, classes, agreements, weights, plan. Out: table, to which is added. A
+// Adds up the figures of the cells of the plan's classes: areas within the plan's edges, means and
+// mean squares. In: cells, bounds, classes, agreements, weights, plan. In and out: table. A
 // workgroup goes over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -24,7 +24,7 @@ shared uint sums_low[kSurveySums];
 shared uint sums_high[kSurveySums];
 shared uint highest, not_lowest, reached, not_far;
 
-// Every addition that wraps the low word carries, whatever their order.
+// Every addition that wraps the low word carries, so their order does not matter.
 void add(uint at, uvec2 x) {
   uint before = atomicAdd(sums_low[at], x.x);
   uint carried = x.y + (before + x.x < before ? 1u : 0u);
@@ -44,7 +44,7 @@ uint first_up(float distance) {
   return from;
 }
 
-// Goes over the edges that cut the cell, and to the first one that it is all within. An edge's
+// Visits the edges that cut the cell, and the first edge within which it lies entirely. An edge's
 // lower end is not above its upper end: so none before the first is surely not below any point.
 void add_within(TallyBounds b, CellWeight w) {
   bool is_surely_all = false, is_perhaps_all = false;

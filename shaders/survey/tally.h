@@ -2,8 +2,8 @@
 // do not depend on the order in which cells are added.
 //
 // The weight of a face is its area as an integer, of all faces together less than 2^62. A cell has
-// its face's, halved so often as the cell was. Values are measured in a unit that is larger than
-// any of them, a power of two, so that what a cell adds is less than its weight.
+// its face's weight, halved as often as the cell was. Values are measured in a unit that is larger
+// than any of them, a power of two, so that what a cell adds is less than its weight.
 #ifndef VKH_SHADERS_SURVEY_TALLY_H
 #define VKH_SHADERS_SURVEY_TALLY_H
 
@@ -88,7 +88,7 @@ VKH_FN TallyBounds tally_bounds(CellBounds b) {
   return t;
 }
 
-// No point of the cell is nearer.
+// A lower bound of the distances of all points of the cell.
 VKH_FN float lowest_of(TallyBounds b) { return max(b.below.least, 0.0f); }
 
 // The bounds of what counts where a distance beyond `most` counts as 0: of a cell that is surely

@@ -43,8 +43,8 @@ float farthest_distance2(vec3 p, vec3 lo, vec3 hi) {
 }
 
 // The largest distance, squared, at which a box still matters: (d + 1e-6)^2, for coordinates of
-// order 1. Whatever the other invocations have found by now, every triangle that plain floats may
-// take for as near as the nearest is tried, so that the result does not depend on their order.
+// order 1. Every triangle that may be as near as the nearest in plain floats is tried, no matter
+// what other invocations have found before, so that the result does not depend on their order.
 float group_reach() {
   float d = 1.000001 * root(uintBitsToFloat(nearest_bits)) + 1.0e-6;  // uncertified: steers
   return d * d;
@@ -56,7 +56,7 @@ uint entry_of(uint side, uint k) {
   return parent * kPyramidFan + k % kPyramidFan;
 }
 
-// Goes from the boxes of one level, on `side`, to those of the level below that matter, on the
+// Goes from the boxes of one level, on `side`, to the boxes of the level below that matter, on the
 // other side.
 void descend(Query q, Level below, uint side) {
   uint lane = gl_LocalInvocationID.x;
@@ -85,7 +85,8 @@ Nearest try_runs(Query q, uint side) {
       uint i = entry_of(side, k);
       if (i < push.triangle_count) try_query(q, i, best);
     }
-    // The others' results spare ties; which ones they spare does not change the result.
+    // The other invocations' results save measuring ties; which ones they save does not change the
+    // result.
     if (q.tight) {
       atomicMin(nearest_bits, bits_of(best.distance2));
       best.distance2 = uintBitsToFloat(nearest_bits);

@@ -72,9 +72,9 @@ void try_tight(Query q, uint i, inout Nearest best) {
   if (closer) best = Nearest(i, best.distance2, above);
 }
 
-// Triangles that a tight traversal cannot tell from the nearest so far wait here, to be measured
-// when there are many and at the end, when others of the subgroup do so too: in between, they would
-// wait.
+// Triangles that a tight traversal cannot tell from the nearest so far wait here. They are measured
+// when there are many, and at the end, so that the invocations of a subgroup do it at the same
+// time.
 const uint kTied = 16u;  // a leaf more than may wait
 uint tied[kTied];
 float tied_distance2[kTied];
@@ -96,7 +96,8 @@ void try_query(Query q, uint i, inout Nearest best) {
   keep_query(q, i, triangle_distance2(q.p.hi, i), best);
 }
 
-// Takes the last first: that is within reach, should a driver end the loops of a long traversal.
+// Takes the last one first: it is surely within reach if a driver ends the loops of a long
+// traversal.
 void measure_tied(Query q, inout Nearest best) {
   while (tied_count > 0u) {
     --tied_count;
@@ -138,8 +139,8 @@ Nearest measured(Query q, Nearest best, float than) {
 // at most three behind, and the tree of nodes is half as deep as that of branches.
 const uint kTraversalStack = 3u * kStackDepth / 2u;
 
-// The stack is the invocation's own; not a struct that functions pass on, which drivers copy
-// (lavapipe: 8 times slower).
+// Each invocation has its own stack. It is no struct that functions pass on, since drivers copy
+// those (lavapipe: 8 times slower).
 uint left_child[kTraversalStack];
 float left_distance2[kTraversalStack];
 uint left_count;

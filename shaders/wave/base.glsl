@@ -21,7 +21,7 @@ float base_of_run() {
 bool needs_sharp(float distance) { return 3.0e-5 * distance > control.cull_tolerance; }
 
 // Whether a point may be so near to B that its closest point has to be found to 48 bits
-// (View::fine). Runs of ordinary pairs need it nowhere, and took 6 % longer with it.
+// (View::fine). Runs of ordinary pairs never need it, and took 6 % longer with it.
 bool is_fine(float base) { return has_subroots() && base == 0.0; }
 
 // Whether plain floats are too coarse to compare samples in.

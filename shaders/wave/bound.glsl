@@ -1,10 +1,10 @@
-// The cascade over every child of the wave, or, if there is a filter, its hard half over those past
-// it: exact case, u1, u2, ha, u3 over every pair of known triangles; shared by wave_bound and
-// paper_bound, which has more bounds. Children that are still open enter the next frontier. A
-// workgroup bounds some children together (wave/bound_group.glsl): an invocation loads one of them
-// and has its last word; all share out the distances and then the cuts of pairs. So a wave of few
-// children is as long as its longest step, not as their sum. The kernel declares the buffers of
-// wave_bound.
+// The cascade over every child of the wave or, if there is a filter, its expensive half over the
+// children that the filter leaves: exact case, u1, u2, ha, u3 over every pair of known triangles.
+// Shared by wave_bound and paper_bound, which has more bounds. Children that are still open enter
+// the next frontier. A workgroup bounds some children together (wave/bound_group.glsl): an
+// invocation loads one of them and decides on it at the end; all share out the distances and then
+// the cuts of pairs. So a wave of few children is as long as its longest step, not as their sum.
+// The kernel declares the buffers of wave_bound.
 #ifndef VKH_SHADERS_WAVE_BOUND_GLSL
 #define VKH_SHADERS_WAVE_BOUND_GLSL
 
@@ -19,7 +19,7 @@
 #include "shaders/wave/bound_tally.glsl"
 #include "shaders/wave/witness.glsl"
 
-// More bounds of the kernel: none in wave_bound; the paper's u3, and u4, in paper_bound.
+// The kernel's further bounds: none in wave_bound; the paper's u3, and u4, in paper_bound.
 Verdict bound_besides(uint i, uint child, Child c, Verdict v, float threshold);
 
 // Plain floats are used if their slack is at most this part of the tolerance: they are quicker,
@@ -94,9 +94,9 @@ void bound_children() {
   if (bounded) {
     c = load_child(code);
     centroid_triangle = centre_of(i);
-    know(lane, centroid_triangle);
-    know_corners(lane, c);
-    know_parent_samples(lane, code);
+    add_known(lane, centroid_triangle);
+    add_known_corners(lane, c);
+    add_parent_samples(lane, code);
     hold(lane, c);
   }
   barrier();

@@ -1,6 +1,6 @@
-// The cascade for some children at once, by a whole workgroup: the owner of each value, and how the
-// distances are shared out. The workgroup has kGroupSize invocations. The kernel declares what
-// base/surface.glsl, wave/child.glsl and wave/centroid.glsl need.
+// The cascade for some children at once, by a whole workgroup: which invocation owns each value,
+// and how the distances are shared out. The workgroup has kGroupSize invocations. The kernel
+// declares what base/surface.glsl, wave/child.glsl and wave/centroid.glsl need.
 #ifndef VKH_SHADERS_WAVE_BOUND_GROUP_GLSL
 #define VKH_SHADERS_WAVE_BOUND_GROUP_GLSL
 
@@ -9,16 +9,15 @@
 #include "shaders/wave/child.glsl"
 #include "shaders/wave/dispatch.glsl"
 
-const uint kKnowers = kMostChildren;
+const uint kGroupChildren = kMostChildren;
 #include "shaders/wave/known.glsl"
 
 const uint kMostPairs = kMostKnown * (kMostKnown - 1u) / 2u;
 
-// A child as all invocations need it, each word beside the same one of other children: invocations
-// of a subgroup read those at once, and as structs they would be in few of the banks of shared
-// memory. How much of it a workgroup takes decides how many run at once: an H200 runs four of
-// 10 KiB on each of its processors; with 8 KiB, as it is if only the corners' triangles are known,
-// bounds come a tenth sooner.
+// The children, as a struct of arrays: a subgroup reads one word of many children at once; an array
+// of structs would conflict in shared-memory banks. The shared memory of a workgroup decides how
+// many workgroups run at once: an H200 runs four of 10 KiB on each of its processors. With 8 KiB,
+// which is enough if only the corners' triangles are known, bounds take a tenth less time.
 const uint kHeldB = 0u;  // corners around the first
 const uint kHeldC = 3u;
 const uint kHeldOrigin = 6u;
@@ -28,11 +27,14 @@ const uint kHeldSlack = 13u;
 const uint kHeldWords = 14u;
 
 shared float held[kHeldWords][kMostChildren];
-shared uint upper_bits[kMostChildren];                     // u so far
-shared uint corner_bits[kMostChildren * kMostKnown * 3u];  // of distances
-// First the measurements, kMostKnown * child + k for triangle k of a child; then pairs, (child *
-// kMaxKnown + i) * kMaxKnown + j and, if they are measured in parts, the bits of each
-// one's u3: then the children are half as many at most.
+shared uint upper_bits[kMostChildren];  // u so far
+// Two uses in turn. While children are bounded: the bits of the distance of corner c of a child
+// from its known triangle k, at 3 (kMostKnown * child + k) + c. After the cuts: the words of the
+// plan (wave/plan_words.glsl), if this workgroup plans.
+shared uint group_words[kMostChildren * kMostKnown * 3u];
+// Two uses in turn. Phase 1: measurements, kMostKnown * child + k for triangle k of a child. Phase
+// 2: pairs, (child * kMaxKnown + i) * kMaxKnown + j and, if pairs are measured in parts, behind
+// them the bits of each pair's u3: then there are at most half as many children.
 const uint kMostListed = kMostChildren * kMostPairs;  // kMostPairs >= kMostKnown
 const uint kPairBits = kMostListed / 2u;
 shared uint listed[kMostListed];
@@ -84,10 +86,10 @@ Surface surface_of(uint child, uint k, float enough) {
 
 vec3 distances_of(uint child, uint k) {
   uint at = 3u * (child * kMostKnown + k);
-  return uintBitsToFloat(uvec3(corner_bits[at], corner_bits[at + 1u], corner_bits[at + 2u]));
+  return uintBitsToFloat(uvec3(group_words[at], group_words[at + 1u], group_words[at + 2u]));
 }
 
-// Stores a child whose known triangles are stored already.
+// Stores a child, after its known triangles.
 void hold(uint child, Child c) {
   LocalCorners placed = without_low_parts(placed_corners(c.root, c.at));
   hold_vector(kHeldB, child, placed.b.hi);
@@ -101,8 +103,8 @@ void hold(uint child, Child c) {
   for (uint k = 0u; k < known_count[child]; ++k) listed[first + k] = child * kMostKnown + k;
 }
 
-// Measures every child's corners against the triangles known to it, marked; if `fine`, one
-// invocation per corner.
+// Measures every child's corners against its known triangles, marked; if `fine`, one invocation per
+// corner.
 void measure_corners(bool fine, float enough) {
   uint step = fine ? 3u : 1u;
   for (uint n = gl_LocalInvocationID.x; n < measure_count * step; n += kGroupSize) {
@@ -113,7 +115,7 @@ void measure_corners(bool fine, float enough) {
       Two3 p = two(vec3(0.0));
       if (corner == 1u) p = two(held_vector(kHeldB, child));
       if (corner == 2u) p = two(held_vector(kHeldC, child));
-      corner_bits[3u * at + corner] = floatBitsToUint(corner_distance(p, s));
+      group_words[3u * at + corner] = floatBitsToUint(corner_distance(p, s));
     }
   }
 }
@@ -142,8 +144,8 @@ Verdict bound_singly(uint child, float threshold) {
 }
 
 // Pairs of triangles that may bound a child better than `upper`, for measure_cuts: a pair cannot
-// beat the better of its two distances at the worst corner. The choice does not depend on the
-// others' results, or the bound would depend on their order.
+// beat the better of its two distances at the worst corner. The choice must not depend on other
+// pairs' results, or the bound would depend on their order.
 void list_pairs(uint child, float upper, bool fine) {
   float shift = held[kHeldSlack][child];
   uint known = known_count[child];

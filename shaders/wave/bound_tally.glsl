@@ -9,8 +9,8 @@
 #include "shaders/wave/bound_group.glsl"
 
 // Words 0 to kCullLowerRaised: children closed, by kCull*.
-const uint kTallyClosed = kCullLowerRaised + 1u;  // largest u of those, as bits
-const uint kTallyNext = kTallyClosed + 1u;        // and of those that stay open
+const uint kTallyClosed = kCullLowerRaised + 1u;  // the largest u of these, as bits
+const uint kTallyNext = kTallyClosed + 1u;        // the largest u of the children that stay open
 const uint kTallyOpen =
     kTallyNext + 1u;  // the number of these; then the start of their slots in the stream
 const uint kTallies = kTallyOpen + 1u;
@@ -19,7 +19,7 @@ const uint kTallies = kTallyOpen + 1u;
 // is scarce.
 uint tally_word(uint i) { return known_triangle[i]; }
 
-// Called by every invocation, as are those below; a barrier stands before count_and_place.
+// Called by every invocation, like the functions below; a barrier stands before count_and_place.
 void begin_tally() {
   if (gl_LocalInvocationID.x < kTallies) known_triangle[gl_LocalInvocationID.x] = 0u;
 }

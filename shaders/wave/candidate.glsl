@@ -36,8 +36,8 @@ float lower_to_beat(float lower) { return max(lower, control.known_lower - contr
 // distances of samples may be wrong by. They are wrong by 32 ulp of what lies above the base and,
 // if compared in plain floats, by 32 ulp of the base too; otherwise by 64 kUlp2 of it. At least a
 // quarter of the tolerance stays, even if the part above the base is too coarse, because the next
-// plan then moves the base. The margin is never under the error of the base: less would refine
-// rounding.
+// plan then moves the base. The margin is never under the error of the base: with less, a run would
+// refine rounding errors.
 float effective_tolerance(float lower) {
   float noise = control.base * (control.tight != 0u ? 64.0 * kUlp2 : 32.0 * kUlp);
   float above_noise = 32.0 * kUlp * lower_to_beat(lower);

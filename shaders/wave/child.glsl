@@ -1,6 +1,6 @@
-// A child in a wave: one of the four of a refined candidate, or of its sixteen if the wave splits
-// twice, or a face of A admitted whole. Children are not stored: a code names them, and this file
-// derives their corners and the triangles of B that are known to be near. The kernel
+// A child in a wave: one of the four children of a refined candidate, or of its sixteen if the wave
+// splits twice, or a whole face of A that was admitted. Children are not stored: a code names them,
+// and this file derives their corners and the triangles of B that are known to be near. The kernel
 // declares `splits`, `points`, `vertex_nearest`, and what wave/candidate.glsl needs.
 #ifndef VKH_SHADERS_WAVE_CHILD_GLSL
 #define VKH_SHADERS_WAVE_CHILD_GLSL
@@ -20,7 +20,7 @@ bool is_root(uint code) { return code >= children_each() * control.parents; }
 // The refined candidate that a child, or a new point, comes from.
 uint parent_of(uint code) { return splits_twice() ? code >> 4 : code >> 2; }
 
-// The face of A that a code of an admitted one names; anything for others.
+// The face of A that a code names, if it names an admitted face; undefined for others.
 uint root_of(uint code) {
   return control.root_cursor - control.roots + (code - children_each() * control.parents);
 }

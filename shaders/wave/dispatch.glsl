@@ -1,5 +1,5 @@
-// The sizes of indirect dispatches: one invocation per item, or as `query` takes its points. The
-// kernel declares `control`.
+// The sizes of indirect dispatches: one invocation per item, or the layout in which `query` takes
+// its points. The kernel declares `control`.
 #ifndef VKH_SHADERS_WAVE_DISPATCH_GLSL
 #define VKH_SHADERS_WAVE_DISPATCH_GLSL
 
@@ -13,12 +13,12 @@ Dispatch groups_of(uint groups) {
 
 Dispatch groups_for(uint items) { return groups_of((items + kGroupSize - 1u) / kGroupSize); }
 
-// Whether each of so many queries has a whole workgroup.
+// Whether each of `queries` queries has a whole workgroup.
 bool traverses_in_groups(uint queries) {
   return traverses_by_group() && queries <= kGroupTraversalQueries;
 }
 
-// Whether the new points of so many candidates are queried in packets.
+// Whether the new points of `parents` candidates are queried in packets.
 bool asks_in_packets(uint parents) { return packs_points() && !traverses_in_groups(3u * parents); }
 
 // Workgroups of query, for points that exist.
@@ -52,7 +52,7 @@ const bool kKnowsMore = (kSwitches & (kUseCentroid | kUseParentSamples)) != 0u;
 // Children of a workgroup of wave_bound at most, so that its shared memory is small enough.
 const uint kMostChildren = kKnowsMore ? kGroupSize / 2u : kGroupSize;
 
-// Children that a workgroup of wave_bound takes: so many more as there are more of them.
+// The number of children that a workgroup of wave_bound takes: more if the wave has more.
 uint children_a_group(uint total) {
   if (!kWide) return kMostChildren;
   uint children = kFewestChildren;

@@ -1,12 +1,12 @@
-// The plan, all that a wave decides as a whole: adopts the last wave's witness, flips the
+// The plan, which decides for a wave as a whole: adopts the last wave's witness, flips the
 // frontier's halves, moves the base of distances, tests for the end, shares the room out between
-// refined, deferred and newly admitted candidates, selects which ones are refined, writes the sizes
-// of the wave's dispatches. One workgroup does it, the last one of wave_bound or that of wave_plan,
-// and of it one invocation plans. After the end it writes zeros, so that recorded waves cost empty
-// dispatches only. A run that pauses for lack of room writes sizes with which only its next plan
-// runs, so that it goes on by itself once it has been moved. Invariant: deferred + 4
-// parents + roots <= capacity, or 16 parents if they are split twice, and their new points fit
-// the stream of points; so no stream of the wave can overflow. The kernel declares `plan_words`
+// refined, deferred and newly admitted candidates, selects which ones are refined, and writes the
+// sizes of the wave's dispatches. One workgroup does this, the last one of wave_bound or the one of
+// wave_plan; most of it is done by one invocation. After the end it writes zeros, so that recorded
+// waves cost empty dispatches only. A run that pauses for lack of room writes sizes with which only
+// its next plan runs, so that it goes on once it has been moved. Invariant: deferred + 4 parents +
+// roots <= capacity, or 16 parents if they are split twice, and their new points fit the stream of
+// points; so no stream of the wave can overflow. The kernel declares `group_words`
 // (wave/plan_words.glsl), `sizes`, and what wave/candidate.glsl needs.
 #ifndef VKH_SHADERS_WAVE_PLAN_GLSL
 #define VKH_SHADERS_WAVE_PLAN_GLSL
@@ -23,8 +23,8 @@
 // of this dispatch.
 struct WaveEnd {
   uint open;            // children that are still open
-  uint largest_open;    // u of those, and of deferred candidates, as bits
-  uint largest_closed;  // u of all that was closed so far
+  uint largest_open;    // the largest u of these, and of deferred candidates, as bits
+  uint largest_closed;  // the largest u of everything closed so far
 };
 
 WaveEnd take_wave_end() {
@@ -87,7 +87,7 @@ void move_base() {
 }
 
 // A candidate that is split once leaves at most four in its place. While more than the reserve is
-// free, as many are refined as surely fit; otherwise one alone, whose descendants fit the reserve
+// free, as many are refined as surely fit. Otherwise only one is, whose descendants fit the reserve
 // (kReserve), so that the run always goes on.
 void share_room() {
   uint held = control.count[kCountFrontier];
@@ -191,10 +191,10 @@ void plan() {
     }
   }
   bool short_room = control.status == kStatusRunning && control.deferred > 0u && may_wait();
-  plan_words[kWordHeld] = short_room ? control.count[kCountFrontier] : 0u;
-  plan_words[kWordRoom] = control.parents;
-  plan_words[kWordReadFrom] = reading(0u);
-  plan_words[kWordLargest] = control.select_largest;
+  group_words[kWordHeld] = short_room ? control.count[kCountFrontier] : 0u;
+  group_words[kWordRoom] = control.parents;
+  group_words[kWordReadFrom] = reading(0u);
+  group_words[kWordLargest] = control.select_largest;
 }
 
 // Called by every invocation of the workgroup.
@@ -203,7 +203,7 @@ void plan_wave() {
   adopt_witness();
   if (first) plan();
   barrier();
-  if (plan_words[kWordHeld] > 0u) select_smallest();
+  if (group_words[kWordHeld] > 0u) select_smallest();
   if (first) write_sizes();
 }
 

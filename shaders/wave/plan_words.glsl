@@ -1,5 +1,5 @@
-// The shared words of the workgroup that plans: `plan_words`, kPlanWords of them, which the kernel
-// provides.
+// The words that the workgroup that plans shares: the first kPlanWords of `group_words`, which the
+// kernel declares.
 #ifndef VKH_SHADERS_WAVE_PLAN_WORDS_GLSL
 #define VKH_SHADERS_WAVE_PLAN_WORDS_GLSL
 

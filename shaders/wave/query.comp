@@ -64,7 +64,7 @@ uint asked_count(uint asks) {
 bool are_few(uint asks, uint count) {
   if (is_fused() && asks == kAskPoints) return splits_in_groups();
   bool few_vertices = asks == kAskVertices && push.vertex_count <= kGroupTraversalVertices;
-  // The test stands here once more: optimisers then leave out the group's traversal.
+  // The test is repeated here so that optimisers leave out the group's traversal.
   return traverses_by_group() && (are_points(asks) ? traverses_in_groups(count) : few_vertices);
 }
 
@@ -120,13 +120,13 @@ void main() {
   Nearest found = find_nearest(item.query, item.nearest, item.asked, by_group);
   bool plain = asks == kAskVertices;
   if (item.asked) {
-    // A wave looks for samples farther than the witness. This is not kMaxLower: others raise it
-    // meanwhile.
+    // A wave looks for samples farther than the witness. This is not kMaxLower, since other
+    // invocations raise it meanwhile.
     float than = are_points(asks) ? control.witness.distance : -1.0;
     if (!plain) found = measured(item.query, found, than);
     item.nearest = found.triangle;
     item.distance = max(found.above, 0.0);
-    // The distance in plain floats only steers; the second pass measures the ones that matter.
+    // The distance in plain floats only steers; the second pass measures the distances that matter.
     if (plain) item.distance = root(found.distance2);  // uncertified: steers
   }
   if (are_points(asks)) {

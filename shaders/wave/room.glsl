@@ -7,7 +7,7 @@
 
 uint reserve() { return has_subroots() ? 2u * kReserve : kReserve; }
 
-// Faces of A that the wave admits, beside `held` candidates, with so much room left: while the
+// Faces of A that the wave admits beside `held` candidates, with `room` places left: only while the
 // frontier is at most a quarter full, so that it can be refined as a whole.
 uint roots_to_admit(uint held, uint room) {
   uint quarter = (control.capacity - reserve()) / 4u;

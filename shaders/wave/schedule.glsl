@@ -10,10 +10,11 @@ bool may_wait() { return (kSwitches & kUseDefer) != 0u; }
 // Decides the wave's order, and returns how many of the `held` candidates stay in the frontier.
 //
 // Largest u first traverses a frontier breadth first: children have smaller u than their parent,
-// so one that the reserve is spent on need not be followed by its own children, which alone are
-// sure to fit it. So while only the reserve is free, the smallest come first all the same. Whenever
-// that begins the whole reserve is free, a candidate is traversed with all its descendants, and its
-// place is won; every wave refines at least one, and there are finitely many.
+// so the candidate after one that used up the reserve need not be its own child, and only its
+// children are sure to fit. So while only the reserve is free, the smallest come first, under this
+// switch, too. Whenever that begins, the whole reserve is free: a candidate is traversed with all
+// its descendants, which frees its place. Every wave refines at least one candidate, and there are
+// finitely many.
 //
 // If nothing may wait, a frontier that does not fit is spilled as a whole: wave/split.glsl keeps
 // the u of each, and the same happens to the children of A's other faces, so that at the end every

@@ -1,5 +1,5 @@
-// The points that the seed queries: A's vertices and, in a warm run, the last run's witness behind
-// them, wherever it is now. The last run's data may be anything: starts are checked, and the
+// The points that the seed queries: A's vertices and, behind them in a warm run, the last run's
+// witness at its present position. The last run's data may be anything: starts are checked, and the
 // witness is moved into A, so that it costs time at worst. First, vertex_distance holds the states
 // from seed_faces; then the distance, and vertex_nearest the triangle, kNone if no face uses the
 // vertex. The seed also queries the witness alone, after a plan that has moved the base. The kernel
@@ -53,8 +53,8 @@ void settle(uint i, uint state) {
 
 Item no_item() { return Item(false, false, kNone, 0.0, Query(two(vec3(0.0)), 0.0, false, false)); }
 
-// `mine`: one of the invocations that have the item alone: others may read the state after it is
-// written.
+// `mine`: the item belongs to this invocation alone; other invocations may read the state after it
+// is written.
 Item first_item(uint i, bool mine) {
   Item item = no_item();
   if (!mine) return item;

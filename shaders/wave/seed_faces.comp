@@ -1,7 +1,7 @@
-// Finds what the faces of A show before any query. First, the vertices that they use: others are no
-// part of a mesh and must not raise the lower bound. Second, the faces that are faces of B too,
-// whatever the order of their corners: their h is 0, their corners lie on B, and this needs no
-// query (docs/method.md, section 7). In: A; B's triangles by their codes; vertex_state all 0. Out:
+// Finds what A's faces show before any query. First, the vertices that they use: other vertices are
+// no part of the mesh and must not raise the lower bound. Second, the faces that are also faces of
+// B, in any order of their corners: their h is 0, their corners lie on B, and this needs no query
+// (docs/method.md, section 7). In: A; B's triangles by their codes; vertex_state all 0. Out:
 // face_shared; vertex_state: kVertexUsed, or kVertexOnB + a triangle that has it for a corner.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -69,8 +69,8 @@ void main() {
   uint triangle = (kSwitches & kUseSharedFaces) != 0u ? same_triangle(f) : kNone;
   face_shared[i] = triangle != kNone ? 1u : 0u;
   uint state = triangle != kNone ? kVertexOnB + triangle : kVertexUsed;
-  // Keeps the largest of several triangles, whatever the order; few faces change what others have
-  // written.
+  // Keeps the largest of several triangles, so that the order does not matter; few faces change
+  // what others have written.
   for (uint k = 0u; k < 3u; ++k) {
     if (vertex_state[f[k]] < state) atomicMax(vertex_state[f[k]], state);
   }

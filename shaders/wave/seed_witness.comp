@@ -51,8 +51,9 @@ void plan_first_wave() {
   float base = base_of_run();
   control.base = base;
   control.tight = is_tight(base) ? 1u : 0u;
-  // If the tolerance is so small that the base must move before anything is closed, or the run must
-  // pause, the first wave has no children, and its end plans: a base, and then the faces.
+  // If the tolerance is so small that the base must move before anything is closed, or if the run
+  // must pause, the first wave has no children. The plan at its end moves the base, and later ones
+  // admit the faces.
   bool base_is_right = !needs_sharp(uintBitsToFloat(control.maximum[kMaxLower]));
   bool has_room = control.pauses == 0u || room_for_all(0u) <= control.capacity;
   bool begins = base_is_right && has_room;

@@ -18,8 +18,8 @@ Dispatch groups_for_new_points(uint held, uint queries) {
   return splits ? groups_for_splits(held) : groups_for_queries(queries);
 }
 
-// `parents` candidates are refined, `held` counts those that wait, too, `keys` are sorted if any
-// are.
+// `parents`: candidates that are refined; `held`: these and the candidates that wait; `keys`:
+// candidates to sort, or 0.
 void write_refine_sizes(uint parents, uint held, uint keys) {
   keys = control.sorted != 0u ? keys : 0u;
   uint packets = asks_in_packets(parents) ? parents : 0u;
@@ -40,7 +40,8 @@ Dispatch groups_to_bound(uint children, bool running) {
   return running ? groups_for_children(children) : groups_of(0u);
 }
 
-// Workgroups of the kernel that bounds so many children, behind the filter if there is one.
+// Writes the workgroups of the kernel that bounds `children` children, after the filter if there is
+// one.
 void write_bound_sizes(uint children, bool running) {
   if (asks_centroids()) sizes.query_centroids = groups_for_queries(children);
   if (bisects()) sizes.bisect = groups_for(children);

@@ -82,7 +82,7 @@ NewPoint new_point(uint k, Refined r, uint group) {
   return NewPoint(p, asked ? best_start(r, p.hi) : kNone, asked);
 }
 
-// Nothing may wait, and there is no room: the candidate is spilled, and its u kept.
+// Spills a candidate, and keeps its u: there is no room, and nothing may wait.
 void spill(bool held, Candidate c, float upper) {
   raise(kMaxSpilled, held ? upper : 0.0);
   close_area(held, c.root, unpack_corners(c.corners));
@@ -147,13 +147,13 @@ bool is_noise(Bary3 corners, Root root, float upper) {
   return !has_subroots() && control.base == 0.0 && left * left <= 0.25 * kUlp * kUlp * root_size2;
 }
 
-// Whether a candidate ends that the switches would not close. Without kUseToleranceCull a part of A
-// that is as far as the best sample, as above a parallel face, never falls under it, but for
-// rounding: all of its children would be split until their bits run out, 4^20 of them, while those
-// that hold the interval wide wait for room. So what is within half of the tolerance ends. The
-// roundings of u and of the sample are less: a twentieth for lengths in plain floats (needs_sharp),
-// an eighth for positions in them (host/solve/pair.cpp), or else under the tolerance's floor. It
-// only steers.
+// Whether to end a candidate that the switches would not close. Without kUseToleranceCull, a part
+// of A that is as far as the best sample, such as one above a parallel face, never falls under it
+// except by rounding: all of its children would be split until their bits run out, 4^20 of them,
+// while the candidates that keep the interval wide wait for room. So a candidate within half of the
+// tolerance ends. The roundings of u and of the sample are less: a twentieth for lengths in plain
+// floats (needs_sharp), an eighth for positions in them (host/solve/pair.cpp), or else under the
+// tolerance's floor. It only steers.
 bool is_level(float upper, bool tolerant) {
   float lower = adopted_lower();
   return !tolerant && upper <= lower_to_beat(lower) + 0.5 * effective_tolerance(lower);

@@ -1,5 +1,5 @@
-// The frontier is refined in its own order, and thin is what pays here; paper/sorted.glsl has
-// another.
+// The frontier is refined in its own order, with the measured threshold for thin candidates;
+// paper/sorted.glsl has other ones.
 #ifndef VKH_SHADERS_WAVE_UNSORTED_GLSL
 #define VKH_SHADERS_WAVE_UNSORTED_GLSL
 

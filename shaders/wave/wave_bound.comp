@@ -29,9 +29,6 @@ layout(scalar, binding = 15) buffer GroupsDone { uint groups_done; };
 #include "shaders/wave/bound.glsl"
 #include "shaders/base/last_group.glsl"
 
-// The plan runs in shared memory that is free by then: that of the corners' distances, which are
-// not read after the cuts.
-#define plan_words corner_bits
 #include "shaders/wave/plan.glsl"
 
 // This kernel has none.

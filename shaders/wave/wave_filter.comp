@@ -1,8 +1,8 @@
 // Runs the cheap half of the cascade over every child, if centroids are queried or the paper's u3
 // is on: exact case, u1, u2, ha with the triangles already known. In: the refined candidates,
 // their splits and queried points; the admitted faces of A. Out: survivors (codes), and for each
-// its centroid as a query that starts from the best single triangle. Every closed child's u is kept
-// (kMaxClosed).
+// its centroid as a query that starts from the best single triangle. The u of every closed child is
+// kept (kMaxClosed).
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -33,7 +33,7 @@ layout(scalar, binding = 13) buffer CentroidNearest { uint centroid_nearest[]; }
 #include "shaders/wave/dispatch.glsl"
 #include "shaders/base/stream.glsl"
 
-const uint kKnowers = kGroupSize;
+const uint kGroupChildren = kGroupSize;
 #include "shaders/wave/known.glsl"
 
 struct Verdict {
@@ -61,9 +61,9 @@ Verdict filter_child(uint code, Child c, float threshold) {
   View view = view_of(placed, (kSwitches & kUseUncertified) != 0u);
   float shift = placed.slack;
   known_count[child] = 0u;
-  know_corners(child, c);
+  add_known_corners(child, c);
   uint own_count = known_count[child];
-  know_parent_samples(child, code);
+  add_parent_samples(child, code);
 
   Verdict v = Verdict(c.upper, kCullU1, c.nearest.x);
   vec3 own = vec3(3.0e38);

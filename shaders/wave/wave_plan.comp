@@ -15,7 +15,7 @@ layout(scalar, binding = 4) readonly buffer Faces { uvec3 faces[]; };
 
 #include "shaders/wave/plan_words.glsl"
 
-shared uint plan_words[kPlanWords];
+shared uint group_words[kPlanWords];
 #include "shaders/wave/plan.glsl"
 
 void main() { plan_wave(); }

@@ -1,9 +1,9 @@
 // Chooses the witness among a wave's samples. Several may be at the new lower bound, in an
 // order that depends on scheduling: the one with the smallest key is taken, and the key is a hash
-// of all that the report contains about a witness, so that two samples with one key are one to the
-// report, but for one chance in 2^32 a pair of them. wave_bound offers them, after all are
-// measured; the plan adopts one (wave/adopt.glsl). The kernel declares `survivors`, `centroids`,
-// and what wave/child.glsl needs.
+// of all that the report contains about a witness, so that two samples with the same key give the
+// same report, except with a chance of 2^-32 for each pair of samples. wave_bound offers samples
+// after all are measured; the plan adopts one (wave/adopt.glsl). The kernel declares `survivors`,
+// `centroids`, and what wave/child.glsl needs.
 #ifndef VKH_SHADERS_WAVE_WITNESS_GLSL
 #define VKH_SHADERS_WAVE_WITNESS_GLSL
 
@@ -31,7 +31,7 @@ Witness witness_from(Point asked, uint root, uvec2 at) {
   return Witness(position, asked.distance, root, at.x, at.y, asked.nearest);
 }
 
-// A sample as the witness that it would be.
+// Makes a witness of a sample.
 Witness witness_at(uint s) {
   if ((kSwitches & kUseCentroid) != 0u && s >= point_count()) {
     uint c = s - point_count();
@@ -54,7 +54,7 @@ uint key_of_witness(Witness w) {
   return min(key, kNone - 1u);
 }
 
-// Keeps a sample if its key is the smallest so far: some 20 are kept of a million in whatever
+// Keeps a sample if its key is the smallest so far: of a million samples some 20 are kept, in any
 // order, and the smallest of all is among them.
 void offer(Witness w) {
   uint key = key_of_witness(w);
