@@ -10,8 +10,8 @@ namespace vkh {
 
 struct AlignOptions {
   uint32_t samples = 40'000;  ///< points of A in the last stage; more resolve finer than the noise
-  /// Asked between the steps, on the thread that runs, with the number of closest points that were
-  /// found; false ends the fit with Interrupted.
+  /// Called between the steps, on the running thread, with the number of closest points found so
+  /// far; false ends the fit with Interrupted.
   ClosestGoesOn goes_on = {};
 };
 
@@ -26,7 +26,7 @@ struct Alignment {
 /// principal axes laid on B's in their four turns, and from many turns where those do not decide.
 /// Iterated closest points: the nearest 80 % of the samples, and at last all within three times
 /// their noise, go down the square of their distance from B. Where A is off, its mirror image is
-/// tried, too, and told where it lies far closer; A is never mirrored. The same meshes give the
+/// tried, too, and reported if it lies far closer; A is never mirrored. The same meshes give the
 /// same bits on the same device. Throws what Solver::closest throws, and Interrupted where
 /// `goes_on` says no.
 Alignment align(Solver& solver, const Mesh& a, const PreparedMesh& b,

@@ -68,7 +68,7 @@ struct Asked {
   Length length;
   Limit limit;  ///< the same length in the files' unit
   std::optional<FaceLimits> faces_a = {}, faces_b = {};
-  /// The share of a mesh's area that is to be within, in [0, 1]; none: all of it, every point.
+  /// The share of a mesh's area that has to be within, in [0, 1]; none: every point has to be.
   std::optional<double> area = {};
   std::string area_requested = {};       ///< the share as the user typed it
   std::optional<AskedSides> sides = {};  ///< if set, `length` and `limit` are the larger ones
@@ -89,9 +89,9 @@ struct Answer : Stated {
   std::array<Input, 2> inputs;             ///< A, B
   std::optional<PlacedInput> placed = {};  ///< A is elsewhere than its file has it
   std::vector<Note> notes;                 ///< the notes on the pair
-  std::string unit;  ///< every length's; empty: the files' own, whatever it is
+  std::string unit;  ///< the unit of every length; empty: that of the files, which is not known
   std::optional<Asked> max;
-  uint64_t parts = 0;  ///< the answers of so many parts are merged in it; 0: it is of none
+  uint64_t parts = 0;  ///< the number of parts whose answers are merged in it; 0: it is no merge
   Report a_to_b;
   std::optional<Report> b_to_a;                    ///< set for a symmetric run
   std::optional<SurveyResult> survey_a, survey_b;  ///< A's; B's in the reverse direction
@@ -128,7 +128,7 @@ FieldSummary summary_of(const Answer& answer, const SurveyResult& survey);
 const char* stop_reason(Status status);
 const char* stop_reason(const Answer& answer, Status status);
 
-/// The notes on the pair, those that its verdict brings among them.
+/// The notes on the pair, including the ones that its verdict brings.
 std::vector<Note> notes_of(const Answer& answer);
 
 /// The answer's first line: the verdict, or what the interval means.
@@ -146,7 +146,7 @@ inline bool is_farthest_known(double lower, double upper) {
 }
 
 /// Whether the upper end of an interval of the answer was sought. After a FAIL it was not, and
-/// would mislead people. A question about a share of the area seeks it whatever its verdict is.
+/// would mislead people. A question about a share of the area seeks it after any verdict.
 bool is_upper_sought(const Answer& answer, double lower, double upper);
 
 /// The gap that an interval's ends are rounded to in print: its width, or less, so that neither end
@@ -225,7 +225,7 @@ struct JunitCase {
 std::string to_junit(std::span<const JunitCase> cases, const std::string& host,
                      const std::string& started);
 std::string to_junit(const Answer& answer);
-/// `name`: pair_name(), so that a case has one name whatever its outcome.
+/// `name`: pair_name(), so that a case has the same name for every outcome.
 std::string to_junit(const Failure& failure, const std::string& name);
 /// "a.stl -> b.stl within 0.1mm". `max`: as it was typed, or empty.
 std::string pair_name(const std::string& a, const std::string& b, bool both,

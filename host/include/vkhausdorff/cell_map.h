@@ -12,7 +12,7 @@
 
 namespace vkh {
 
-/// The wish for a map.
+/// The map that is asked for.
 struct MapOptions {
   double pixels = 1000;  ///< A's diagonal in pixels: no cell of half a pixel's area is split
   /// The distance at the end of the colours, in the files' units; none: `CellMap::bar` finds one.
@@ -81,15 +81,16 @@ struct MapBar {
   double share_of(double distance) const;
 };
 
-/// Shares of A's area, or of its points, by a map's estimates: what the bar's colours do not tell.
+/// Shares of A's area, or of its points, by a map's estimates: what the colours of the bar cannot
+/// show.
 struct MapShares {
   MapBar bar;
   bool has_sides = false;
   double above = 0, below = 0;  ///< outside of the bar
   double unresolved = 0, no_side = 0;
   double left_out = 0;  ///< by CellMap::max_distance: in none of the others
-  /// Cells that are probably within the limits, or within both if they have no side: their share of
-  /// what is not left out.
+  /// The share, of what is not left out, of cells that are probably within the limits, or within
+  /// both limits if they have no side.
   double within = 0;
   double mean =
       0;  ///< of the distance of what is not left out, without a sign, in the files' units

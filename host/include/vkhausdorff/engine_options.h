@@ -1,5 +1,5 @@
-// The parts of the method that are on, and what benchmarks and tests set besides: the defaults are
-// what pays. No member changes what an interval says, but for `certified`.
+// The parts of the method that are on, and more that benchmarks and tests set. The defaults are
+// what pays. Only `certified` changes what an interval says.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,21 @@
 namespace vkh {
 
 struct EngineOptions {
-  std::string preset = {};                 ///< see preset_names(); empty: default
-  std::vector<std::string> enabled = {};   ///< switch names, see switch_names(), on besides
-  std::vector<std::string> disabled = {};  ///< switch names to take from those
-  /// Takes the pipelines of a fine tolerance (VKH_CONTEXT_FINE), whatever the tolerance: for the
-  /// runs of one question, which would otherwise create two sets.
+  std::string preset = {};  ///< see preset_names(); empty: default
+  std::vector<std::string> enabled =
+      {};  ///< names of further switches to turn on, see switch_names()
+  std::vector<std::string> disabled = {};  ///< names of switches to turn off
+  /// Takes the pipelines of a fine tolerance (VKH_CONTEXT_FINE) for any tolerance: the runs of one
+  /// question would otherwise create two sets.
   bool fine = false;
-  /// Takes the pipelines that a survey needs (VKH_CONTEXT_CELLS), so that one of the same pair
-  /// creates no others.
+  /// Takes the pipelines that a survey needs (VKH_CONTEXT_CELLS), so that a survey of the same pair
+  /// creates none.
   bool cells = false;
   /// Takes the pipelines that Solver::closest() needs (VKH_CONTEXT_CLOSEST), for the same reason.
   bool closest = false;
   bool coverage = false;  ///< add up what was closed of each face of A: Report::coverage_check
-  /// false: BVH and solution alone are timed, as Times has them; each timestamp between stages
-  /// waits for what is before it, which all together costs an H200 2 %.
+  /// false: only the BVH and the solution are timed, as Times has them. Each timestamp between
+  /// stages waits for what precedes it; on an H200 the timestamps cost 2 % in all.
   bool stage_times = true;
 
   // For benchmarks and tests alone.
@@ -32,14 +33,15 @@ struct EngineOptions {
   uint64_t start_memory_bytes = 0;
   /// With `sort`: smaller frontiers are not sorted; 0: as was measured to pay.
   uint32_t sort_from = 0;
-  /// false: bounds in plain floats, a report that nothing vouches for: what the certificate costs.
+  /// false: bounds in plain floats, and a report without a guarantee, to measure what the
+  /// certificate costs.
   bool certified = true;
 };
 
-/// The names that `enabled` and `disabled` take.
+/// The names that `enabled` and `disabled` accept.
 std::vector<std::string> switch_names();
-/// "default": what pays on the device. "paper": what the paper's method has and no more.
-/// "baseline-gpu": the paper's baseline, its cascade of bounds with none of its optimisations.
+/// "default": what pays on the device. "paper": exactly what the paper's method has.
+/// "baseline-gpu": the paper's baseline, which is its cascade of bounds without its optimisations.
 std::vector<std::string> preset_names();
 
 }  // namespace vkh

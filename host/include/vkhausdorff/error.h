@@ -47,7 +47,7 @@ struct ErrorParts {
   std::string expected = {};  ///< the form that would have been accepted
 };
 
-/// An error. `what()` is its parts in one line: "file: place: problem; expected so and so", or
+/// An error. `what()` is its parts in one line: "file: place: problem; expected FORM", or
 /// "option 'file': ..." with an option.
 class Error : public std::runtime_error {
  public:
@@ -66,8 +66,8 @@ class Error : public std::runtime_error {
   ErrorParts parts_;
 };
 
-/// The error that the exception is: std::bad_alloc is one of memory, and all that is no Error is
-/// one of ours.
+/// Converts an exception to an Error: std::bad_alloc becomes one of memory, and anything else that
+/// is no Error becomes a bug of ours.
 Error error_of(const std::exception_ptr& thrown);
 
 /// An error of one kind, under the name by which it is thrown and caught.

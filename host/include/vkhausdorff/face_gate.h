@@ -17,8 +17,8 @@ struct FaceGate {
   uint64_t runs = 0;    ///< runs of parts of A
 };
 
-/// `limits`: one for each face of A, each above 0; faces of like limits are asked about together,
-/// and apart where that decides nothing. Ends at the first face that is beyond. Throws what
+/// `limits`: one for each face of A, each above 0; faces with similar limits are solved together,
+/// and separately if that decides nothing. Ends at the first face that is beyond. Throws what
 /// Solver::distance throws, and UsageError for limits that are not positive and finite, or too few.
 /// options.limit is ignored; the time and the callback are those of all runs together.
 FaceGate gate_faces(Solver& solver, const Mesh& a, const Mesh& b, std::span<const Limit> limits,

@@ -44,7 +44,8 @@ FieldSummary summary_of(const Field& field, const Limit& limit);
 struct AreaWithin {
   double distance = 0;  ///< in the files' units
   Enclosure share;
-  /// So much area lies at this distance, but for what floats leave, that no effort decides more.
+  /// More effort does not narrow the share, because too much area lies within rounding of this
+  /// distance.
   bool jump = false;
   /// With SurveyOptions::normals_within: the share whose normals agree, too.
   std::optional<Enclosure> agreeing = {};
@@ -58,7 +59,7 @@ struct Percentile {
   bool jump = false;
 };
 
-/// Each is weighted by area, and certified. Lengths are in the files' units.
+/// Figures that are weighted by area, and certified. Lengths are in the files' units.
 struct Statistics {
   double area = 0;      ///< A's area, rounded to nearest; 0 for points
   uint64_t points = 0;  ///< if A is points, how many: all figures weigh them alike, not an area
@@ -70,14 +71,14 @@ struct Statistics {
   std::vector<AreaWithin> bands;
   std::vector<Percentile> percentiles;
   /// With SurveyOptions::normals_within: the mean of the cosines of angles between A's normals and
-  /// those of B's closest faces, whatever their signs; in [0, 1].
+  /// those of B's closest faces, without their signs; in [0, 1].
   std::optional<Enclosure> normal_cosine = {};
   /// The whole distribution, for charts: distances that ascend from 0 to the largest upper.
   /// Empty where only the shares within `bands` have goals.
   std::vector<AreaWithin> curve;
 };
 
-/// The shares at which the distribution of signed distances is told: both of its ends matter.
+/// The shares at which the distribution of signed distances is reported: both of its ends matter.
 inline constexpr std::array kSignedShares = {0.01, 0.05, 0.5, 0.95, 0.99};
 
 /// A point of A with a proven side.

@@ -24,7 +24,7 @@ class FileFaces {
   };
 
   FileFaces() = default;
-  /// Takes the runs() of a mesh of so many triangles; is_valid() checks whether they may be its.
+  /// Takes the runs() of another FileFaces. is_valid() checks whether they fit a mesh.
   explicit FileFaces(std::vector<Run> runs) : runs_(std::move(runs)) {}
   bool is_valid(uint64_t triangle_count) const {
     Run before;
@@ -63,7 +63,7 @@ class FileFaces {
     std::iota(at, faces.end(), before.faces);
     return faces;
   }
-  /// The number of the file's faces for a mesh of so many triangles.
+  /// The number of the file's faces, for a mesh of `triangle_count` triangles.
   uint64_t count(uint64_t triangle_count) const {
     return end().faces + (triangle_count - end().triangles);
   }

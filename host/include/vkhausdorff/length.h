@@ -13,7 +13,7 @@ namespace vkh {
 struct Length {
   enum class Of {
     kDiagonal,  ///< a fraction of diag(A)
-    kFiles,     ///< in the files' own unit, whatever it is
+    kFiles,     ///< in the files' unit, known or not
     kUnit,      ///< in `unit`
   };
   std::string requested;  ///< the text as the user typed it
@@ -64,8 +64,8 @@ class Diagonal {
   Diagonal(double held, double delta) : held_(held), delta_(delta) {}
 
   double held() const { return held_; }
-  /// The exact diagonal lies between them, but for the rounding of held(). With a delta of 0 both
-  /// are held().
+  /// Bounds of the exact diagonal, except for the rounding of held(). With a delta of 0 both are
+  /// held().
   double least() const;
   double most() const;
 

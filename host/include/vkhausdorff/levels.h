@@ -9,9 +9,10 @@
 namespace vkh {
 
 struct LevelsOptions {
-  SimplifyOptions simplify;  ///< its limit ends the chain; its progress is told of each level
-  size_t levels = 5;         ///< most levels
-  double ratio = 0.5;        ///< of faces, from one level to the next; in (0, 1)
+  SimplifyOptions
+      simplify;        ///< its limit ends the chain; its progress callback hears of each level
+  size_t levels = 5;   ///< most levels
+  double ratio = 0.5;  ///< of faces, from one level to the next; in (0, 1)
 };
 
 /// The reason why a chain has no further level.

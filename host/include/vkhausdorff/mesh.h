@@ -94,7 +94,7 @@ struct Mesh {
   std::string unit = {};  ///< the coordinates', if the file has it: "m", "mm", "in"; else empty
 };
 
-/// The memory of a mesh of so many vertices and faces: 24 bytes a vertex, 12 a face.
+/// The memory of a mesh: 24 bytes a vertex, 12 a face.
 inline uint64_t mesh_bytes(uint64_t vertex_count, uint64_t face_count) {
   return sizeof(DVec3) * vertex_count + sizeof(UVec3) * face_count;
 }
@@ -104,8 +104,8 @@ inline uint64_t mesh_bytes(const Mesh& mesh) {
 
 /// Throws InputError that names the element if a coordinate is not finite, an index is out of
 /// range, there is no face, `delta` is not a finite number of 0 or more, `file_faces` do not fit
-/// so many triangles, or face i of points is not the point i. Solver checks every mesh so, since a
-/// caller may write anything into one.
+/// the number of triangles, or face i of points is not the point i. Solver checks every mesh this
+/// way, since a caller may write anything into one.
 void check_mesh(const Mesh& mesh);
 
 /// Throws UsageError if the interval covers every triangulation of A's or B's polygons, and `what`,

@@ -15,7 +15,7 @@
 namespace vkh {
 
 /// A mesh as it was read, and notes on its file, such as polygons: 3 faces of more than three
-/// corners were triangulated. It goes wherever a Mesh does.
+/// corners were triangulated. It may be passed wherever a Mesh may.
 struct ReadMesh : Mesh {
   ReadMesh() = default;
   ReadMesh(Mesh mesh, std::vector<Note> noted = {})
@@ -43,7 +43,7 @@ struct FileBeneath {
 
 /// The files that read_mesh reads besides `path` itself, each once, in the order of their names.
 /// They are found in the mesh file's own bytes: none is opened. Returns none if the mesh file
-/// cannot be read or is refused, whatever lies beneath it. Throws Interrupted if limits.keep_going
+/// cannot be read or is refused. Throws Interrupted if limits.keep_going
 /// returns false.
 std::vector<FileBeneath> files_beneath(const std::filesystem::path& path,
                                        const ReadLimits& limits = {});

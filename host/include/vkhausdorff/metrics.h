@@ -16,11 +16,13 @@
 
 namespace vkh {
 
-/// A figure, and whether it is as narrow as it is to be. Before anything is known it is neither.
+/// A figure, and whether it is as narrow as was asked. Before anything is known it has no bounds
+/// and is not narrow.
 struct Metric {
   Enclosure value{0, std::numeric_limits<double>::infinity()};
   bool is_met = false;
-  /// So much area lies at this distance, or so little around it, that no effort narrows it.
+  /// No effort narrows it, because much area lies at exactly this distance, or nearly none around
+  /// it.
   bool jump = false;
 };
 
@@ -43,17 +45,18 @@ struct Metrics {
 
   /// Returns whether a figure of this name is asked for.
   bool asks_for(std::string_view name) const;
-  /// Returns whether all figures that are asked for are as narrow as they are to be.
+  /// Returns whether all requested figures are as narrow as asked.
   bool is_met() const;
 };
 
-/// The wish for metrics.
+/// The metrics that are asked for.
 struct MetricsOptions {
   double percentile = 95;  ///< in (0, 100]
-  /// Names of kNamedMetrics and kNamedShares: these alone have goals, and the others' intervals are
-  /// what falls off, without estimates where only shares are named. Empty: all.
+  /// Names of kNamedMetrics and kNamedShares. Only these have goals. The others get the intervals
+  /// that come without further work, and no estimates if only shares are named. Empty: all.
   std::vector<std::string> figures = {};
-  /// If set: figures of normals, which agree within so many degrees, from 0 to 90.
+  /// If set: figures of normals are wanted, too. Normals agree if their angle is at most this, in
+  /// degrees from 0 to 90.
   std::optional<double> normals = {};
   /// The width that is enough: of a length, as a fraction of its own lower end, but no less than a
   /// millionth of the larger diagonal or what floats leave; of a share.
@@ -69,7 +72,7 @@ struct NamedMetric {
   const char* name;
   Metric Metrics::*figure;
   int dimension;            ///< the power of the unit
-  bool of_normals = false;  ///< it is none without Metrics::normals
+  bool of_normals = false;  ///< only with Metrics::normals
 };
 inline constexpr std::array<NamedMetric, 9> kNamedMetrics{
     {{"hausdorff", &Metrics::hausdorff, 1},
@@ -106,7 +109,7 @@ std::vector<std::string> checked_figures(const std::string& option,
 /// The name with the percentile in place of p: "hd95_pooled".
 std::string name_of(const NamedMetric& metric, double percentile);
 
-// The formulas, for tests: each encloses what it is of numbers within its arguments.
+// The formulas, for tests: each encloses its value for all numbers within its arguments.
 
 /// w x + (1 - w) y for w in `weight`, which lies in [0, 1]; x and y are not negative.
 Enclosure weighted(const Enclosure& weight, const Enclosure& x, const Enclosure& y);

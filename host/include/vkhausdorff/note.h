@@ -22,7 +22,7 @@ enum class NoteCode {
   kElements,    ///< points, lines and curves were left out
   kSurfaces,    ///< free-form surfaces were left out
   kCalls,       ///< calls of other files or commands were not followed
-  kUnread,      ///< text or bytes that are no part of the format were read past
+  kUnread,      ///< text or bytes that are no part of the format were skipped
   kScene,       ///< one scene of several was read
   kRotations,   ///< quaternions of a length other than 1
   kPositions,   ///< primitives without positions were left out
@@ -67,7 +67,7 @@ struct Note {
   bool operator==(const Note&) const = default;
 };
 
-/// A figure of a note: so many of what `unit` says, or a length in it.
+/// A figure of a note: a count of what `unit` names, or a length in that unit.
 struct Figure {
   double value;
   std::string unit;

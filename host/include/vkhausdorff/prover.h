@@ -12,16 +12,16 @@ namespace vkh {
 
 struct ProofJob {
   const Mesh &a, &b;
-  const Report& report;         ///< from a run of these meshes: report.upper is to be proven
+  const Report& report;         ///< from a run of these meshes: report.upper is the bound to prove
   const SolveOptions& options;  ///< options of that run
-  /// Asked between submissions, with how many leaves there are; false: what is left is proven to
-  /// what it can be at once, and the bound is larger.
+  /// Called between submissions with the number of leaves so far. After false, what is left gets
+  /// the bound that can be proven at once, and the bound of the whole is larger.
   std::function<bool(size_t)> goes_on;
 };
 
 /// The proof of one direction.
 struct Proof {
-  double upper = 0;    ///< the bound that is proven: at least what was asked
+  double upper = 0;    ///< the bound that is proven; never less than the one that was asked for
   std::string blocks;  ///< docs/certificate-file.md
   size_t bytes = 0;    ///< the size of `blocks`, which JSON has without them
   size_t leaves = 0, cut_leaves = 0, asked_cells = 0;

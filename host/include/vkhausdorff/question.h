@@ -30,7 +30,7 @@ struct SidedMax {
   Length over, under;
 };
 
-/// The most that an answer may cost, besides that of its files.
+/// The most that an answer may cost, without the cost of reading files.
 struct Budget {
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< for all work
   std::optional<double> survey_time_s;  ///< the time of each survey; none: as the rest
@@ -70,11 +70,11 @@ struct Question : Stated {
   std::string face_max_a, face_max_b;  ///< files with limits per face; empty: none
   std::optional<std::vector<Limit>>
       face_limits_a;           ///< limits of A's faces; none: those of the file
-  std::optional<double> area;  ///< the share of A's area that is to be within `max`
+  std::optional<double> area;  ///< the share of A's area that has to be within `max`
   std::string area_requested;  ///< the share as the user typed it
   bool worst = false;          ///< a limit that is failed goes on to the worst point
 
-  // Results about all of A, besides its distance.
+  // Results about all of A, in addition to its distance.
   bool faces = false;                    ///< bounds of each face: for a picture, or a file
   std::optional<Length> face_tolerance;  ///< the width of those
   bool statistics = false;

@@ -14,13 +14,13 @@ namespace vkh {
 /// The choices for polygons whose outline crosses itself, encloses no area or is too intricate.
 enum class OddPolygons {
   kRefused,  ///< its face is named in an InputError
-  kFanned,   ///< the fan of its corners is measured, whatever that covers, and noted
+  kFanned,   ///< the fan of its corners is measured, though it may cover other points, and noted
 };
 
 /// The choices of which shapes of a scene are measured.
 enum class Bodies {
   kSolid,  ///< shapes that are printed as bodies, or shown; the others are counted in a note
-  kAll,    ///< every shape as it lies; a note counts those that are no bodies
+  kAll,    ///< every shape as it lies; a note counts the shapes that are no bodies
 };
 
 /// Expected in errors about a file that breaks max_input_bytes.
@@ -43,15 +43,15 @@ struct ReadLimits {
   /// Reads points alone, as Mesh::are_points. A file that has faces is refused then, as one without
   /// faces is otherwise: neither is taken for the other.
   bool points = false;
-  /// Asked now and then while a file is read, by one thread at a time, perhaps another than the one
-  /// that waits: false ends the reading with an Interrupted.
+  /// Called now and then while a file is read, by one thread at a time, which need not be the
+  /// caller's. False ends the reading with an Interrupted.
   std::function<bool()> keep_going = {};
   /// Counts the bytes that have been parsed, as they are; null: no caller needs it.
   std::atomic<uint64_t>* bytes_read = nullptr;
   /// The number of threads on which a file is read; 0: one a core.
   size_t threads = 0;
   /// The bytes that a thread reads at a time; 0: chosen by the file. For tests: the mesh, or the
-  /// error, is the same whatever stands here.
+  /// error, is the same for any number.
   size_t block_bytes = 0;
 };
 

@@ -134,7 +134,7 @@ struct Report {
   double gap() const;  ///< (upper - lower) / diag(A), rounded up
 };
 
-/// Judges by the interval alone, whatever ended the run.
+/// Judges by the interval alone, no matter what ended the run.
 Verdict verdict_of(double lower, double upper, const Limit& limit);
 /// Returns whether a limit was asked about, and there is an answer.
 bool is_decided(double lower, double upper, const Limit& limit);

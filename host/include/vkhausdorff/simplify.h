@@ -16,7 +16,7 @@ namespace vkh {
 struct SimplifyProgress {
   size_t tried = 0;            ///< candidates that were judged
   uint64_t faces = 0;          ///< of the smallest that passed, or of A
-  uint64_t faces_of_next = 0;  ///< of the candidate that is to be judged
+  uint64_t faces_of_next = 0;  ///< of the next candidate
 };
 
 struct SimplifyOptions {
@@ -53,7 +53,8 @@ struct Simplified {
 /// candidate is judged by two runs of the solver, so the limit holds in exact arithmetic; nothing
 /// else is promised: neither watertightness, nor orientation, nor the fewest faces possible. Throws
 /// UsageError for a limit that is not positive and finite and in a build without meshoptimizer;
-/// InputError and DeviceError as Solver does. Time is asked between candidates and within runs.
+/// InputError and DeviceError as Solver does. The time limit is checked between candidates and
+/// within runs.
 Simplified simplify(Solver& solver, const Mesh& a, const SimplifyOptions& options);
 
 /// The pipelines for Solver::make_ready() that simplify() begins with, where `solve` has this

@@ -38,11 +38,11 @@ class PreparedMesh {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Two meshes that stay as they are from call to call, as a Solver has framed them; null before the
-/// first call. Where no other run came between, they still lie on its device.
+/// Two meshes that do not change between calls, as a Solver has framed them; null before the first
+/// call. If no other run came between, they are still on its device.
 using KeptPair = std::shared_ptr<const FramedPair>;
 
-/// Two meshes that the caller keeps, and what is asked about them.
+/// Two meshes that the caller keeps, and how their distance is to be found.
 struct PairView {
   const Mesh& a;
   const Mesh& b;
@@ -53,7 +53,8 @@ struct PairView {
   /// made before, on any thread, for two meshes that check_mesh() let pass; null: the call checks
   /// and frames them.
   const FramedPair* framed = nullptr;
-  /// Points to a place of the caller's for these two meshes alone; null: nothing is left to find.
+  /// Points to a variable of the caller that belongs to these two meshes; null: nothing is kept for
+  /// a later call.
   KeptPair* kept = nullptr;
   KeptPair* kept_back = nullptr;  ///< of h(b, a), for symmetrics()
 };
@@ -68,8 +69,8 @@ DeviceDescription describe(const NativeProcessor& processor);
 
 /// Keeps pipelines and buffers of one device between runs. Calls from several threads run one after
 /// the other; Solvers of their own on the same Device run at once. Everything throws InputError
-/// that names the mesh, and a vertex or face of it, if a mesh is invalid (check_mesh), whatever it
-/// holds, as long as it does not change during the call; DeviceError if the device is lost or out
+/// that names the mesh, and a vertex or face of it, if a mesh is invalid (check_mesh); any content
+/// is safe, as long as it does not change during the call; DeviceError if the device is lost or out
 /// of memory; and UsageError for an unknown switch, a tolerance that is not positive and finite, or
 /// a call from a progress callback of the same Solver.
 class Solver {
@@ -77,24 +78,24 @@ class Solver {
   /// `cache_folder`: where pipelines are kept between processes, in files of their own for each
   /// driver and build; empty: nowhere.
   explicit Solver(Device& device, const std::filesystem::path& cache_folder = {});
-  /// A solver on the device of another, with buffers of its own, that shares its pipelines: those
-  /// that either makes, both have.
+  /// A solver on the device of another, with its own buffers. The two share pipelines: what either
+  /// creates, both can use.
   struct SharesPipelines {};
   Solver(SharesPipelines, const Solver& other);
-  /// A solver without a device. Presets, switches and a run over several solvers throw UsageError,
-  /// and so does device(). What is prepared is kept for closest points;
-  /// distances of it are those of its mesh.
+  /// A solver without a device. Presets, switches, a run over several solvers and device() throw
+  /// UsageError. A prepared mesh is kept for closest points; distance() uses its mesh as if it had
+  /// not been prepared.
   explicit Solver(const NativeProcessor& processor);
   ~Solver();
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  /// Creates the pipelines that a run with these options needs, which its first run does otherwise:
-  /// the slow part of a start, so that meshes may be read meanwhile.
+  /// Creates the pipelines that a run with these options needs. Otherwise the first run does that.
+  /// It is the slow part of a start, so meshes may be read meanwhile.
   void make_ready(const EngineOptions& options = {});
   /// Describes what runs: the device, or the processor.
   const DeviceDescription& description() const;
-  /// Throws UsageError where there is none.
+  /// Throws UsageError if there is no device.
   const Device& device() const;
 
   /// Encloses h(a, b).
@@ -103,9 +104,9 @@ class Solver {
   /// Encloses h(a, b) of each, all at once: a large GPU, which one pair of 10,000 faces leaves
   /// mostly idle, takes 16 in half of the time (vkhCmdRunTasks). Every bound is that of distance().
   /// Each pair has a workspace of options.memory_bytes to itself, 99 MiB as a rule where that is 0,
-  /// and the solver keeps them. Give pairs of like size, 16 or so, and no more than the device has
-  /// memory for. Times in a report are those of all together while it ran, stages are not timed
-  /// apart; options.progress is asked for each pair, and ends that one.
+  /// and the solver keeps them. Give pairs of similar size, about 16, and no more than fit the
+  /// device's memory. Times in a report are those of all pairs together while it ran, and stages
+  /// are not timed; options.progress is called for each pair, and its false ends that pair.
   std::vector<Report> distances(std::span<const PairView> pairs, const SolveOptions& options = {});
   /// Does the same for h(b, a) after that, and returns both as symmetric() has them.
   /// PairView::prepared has no reverse direction.
@@ -118,8 +119,8 @@ class Solver {
   Report distance(const Mesh& a, const PreparedMesh& b, const SolveOptions& options = {});
 
   /// Finds the point of B closest to each of `points`, which are in B's coordinates, and encloses
-  /// its distance. The points go to the device in batches of about 0.1 s, `goes_on` is asked
-  /// between these, and Interrupted is thrown where it says no. Throws InputError that names the
+  /// its distance. The points go to the device in batches of about 0.1 s. `goes_on` is called
+  /// between them, and if it returns false, Interrupted is thrown. Throws InputError that names the
   /// row if a point is not finite. A point's answer depends on b and the point alone. Where a point
   /// is farther from B than 2^14 times B's size, B is built once more in a frame for such points.
   ClosestPoints closest(const PreparedMesh& b, std::span<const DVec3> points,
@@ -127,10 +128,10 @@ class Solver {
   ClosestPoints closest(const Mesh& b, std::span<const DVec3> points,
                         const ClosestGoesOn& goes_on = {});
 
-  /// Encloses max(h(a, b), h(b, a)). The reverse direction has the forward direction's tolerance
-  /// and what is left of the time, half of it at least, and is pruned by the forward direction's
-  /// lower bound. It is not sought, its interval true and wide, if the forward direction is beyond
-  /// options.limit.
+  /// Encloses max(h(a, b), h(b, a)). The reverse direction has the forward direction's tolerance,
+  /// what is left of the time, but at least half of it, and is pruned by the forward direction's
+  /// lower bound. It is not searched if the forward direction is beyond options.limit: its interval
+  /// is then true, but wide.
   SymmetricReport symmetric(const Mesh& a, const Mesh& b, const SolveOptions& options = {});
 
  private:

@@ -23,17 +23,17 @@ struct StreamResult {
   std::exception_ptr error;      ///< the exception that Solver threw, instead
 };
 
-/// A pair, and what is asked about it.
+/// A pair, and how its distance is to be found.
 struct StreamPair {
   size_t number = 0;                 ///< the caller's own
   std::shared_ptr<const Mesh> a, b;  ///< null for either: the pair's error
-  /// Other pairs have the same `b`, the very object: it is prepared once on each device. Answers
+  /// Other pairs have the same object as `b`: it is prepared once on each device. Answers
   /// are those of Solver::distance(a, prepared b), so set this by the pairs alone, not by their
   /// order.
   bool shares_b = false;
   bool symmetric = false;
-  SolveOptions options;  ///< `progress` is asked on the threads that run; Progress::pair is then
-                         ///< `number`
+  SolveOptions
+      options;  ///< `progress` is called on the threads that run; Progress::pair is then `number`
   /// Called before the pair's run, once, with the solver that will run it and the prepared `b`, or
   /// null unless pairs share it: it may change `a`, `options` and `beside`. An exception from it is
   /// the pair's error.
@@ -84,14 +84,15 @@ class PairStream {
   bool push(StreamPair pair);
   /// Waits until every device was opened, or could not be: before that, pairs go to the first ones.
   void wait_until_open();
-  /// Waits until all that was pushed is delivered, and every device was tried. A device that is
-  /// lost gives its pairs to the others, and is opened anew. Throws DeviceError when none was left.
+  /// Waits until all pushed pairs are delivered, and every device was tried. The pairs of a lost
+  /// device go to the others, and the device is opened again. Throws DeviceError if no device was
+  /// left.
   void finish();
   /// Throws DeviceError when no device is left, as finish() does: pairs that were pushed may have
   /// been dropped. Any thread may call it, without waiting.
   void check() const;
-  /// Drops pairs that wait; those that run end with a true interval, as Status::kCancelled, and are
-  /// delivered.
+  /// Drops the pairs that wait. Pairs that run end with a true interval, as Status::kCancelled, and
+  /// are delivered.
   void cancel();
 
   std::vector<DeviceDescription> devices() const;  ///< the opened ones

@@ -36,7 +36,7 @@ const char* survey_end_name(SurveyEnd end);
 size_t default_effort(bool on_cpu);
 
 struct SurveyOptions {
-  bool faces = false;  ///< each face's bounds are to be narrow; otherwise it is bounded once
+  bool faces = false;  ///< each face's bounds have to be narrow; otherwise it is bounded once
   /// The width to reach, in the files' units; 0: `face_tolerance` of what the largest distance is
   /// at least.
   double field_tolerance = 0;
@@ -56,7 +56,8 @@ struct SurveyOptions {
   /// If set: figures and the map are of the part of A within it alone: Statistics::kept, and
   /// CellMap::max_distance. The field, and the distance itself, are of all of A.
   std::optional<Limit> max_distance = {};
-  /// If set: a band is met as soon as it is known whether so much of A's area is within it.
+  /// If set, a share: a band is met as soon as it is known whether this share of A's area is within
+  /// it.
   std::optional<double> enough = {};
   std::vector<double> percentiles = {0.5, 0.9, 0.95, 0.99};  ///< shares of A's area, 0 to 1
   /// false: the mean, the root mean square or the percentiles are enclosed, and have no goal. Where
@@ -77,20 +78,20 @@ struct SurveyOptions {
   double signed_tolerance = 0.02, signed_floor = 1e-6;
   /// If set: A is only to be proven within the limits of its sides, or beyond. Sides are wanted.
   std::optional<SidedLimits> sided = {};
-  /// No distance is above it, in the files' units.
+  /// An upper bound of all distances, in the files' units.
   double upper = std::numeric_limits<double>::infinity();
   /// The number of cells that the device may bound besides each face once. Unset:
   /// default_effort(). The device needs some 115 bytes for each of them. A point of A is not split
-  /// but measured on the host, once, which takes as much of it as a split: two.
+  /// but measured once, on the host. That counts as two cells, like a split.
   std::optional<size_t> effort = {};
   /// The limit for the survey alone. A survey that it ends differs from run to run. Where sides are
   /// wanted, cells are split in the first 70 % of it, so that there is time to find them.
   double time_limit_s = std::numeric_limits<double>::infinity();
-  /// Cells are sent in submissions that take about so long each, for `goes_on` to be asked between
-  /// them. No result depends on it.
+  /// The time that a submission of cells should take: `goes_on` is called between submissions. No
+  /// result depends on it.
   double submission_ms = 50;
-  /// Asked between submissions, and between pieces of the work on sides, with how many cells have
-  /// been bounded; false ends the survey.
+  /// Called between submissions, and between pieces of the work on sides, with the number of cells
+  /// bounded so far; false ends the survey.
   std::function<bool(size_t)> goes_on;
 };
 
@@ -102,18 +103,19 @@ struct SurveyResult {
   std::optional<Statistics> statistics;
   std::optional<SignedFigures> sides = {};
   std::shared_ptr<const CellMap> map = {};  ///< null where A has no area; copies share it
-  std::optional<MapShares> shares = {};     ///< those that pictures of the map name
+  std::optional<MapShares> shares = {};     ///< the shares that pictures of the map name
   SurveyEnd ended = SurveyEnd::kCancelled;
   bool is_met() const { return ended == SurveyEnd::kMet; }
   size_t effort = 0;  ///< SurveyOptions::effort, or the default
   size_t cells = 0;
-  size_t bounded = 0;  ///< cells that were bounded, including those that were split later
+  size_t bounded = 0;  ///< cells that were bounded, including the ones that were split later
   double ms = 0;
   double device_ms = 0;  ///< part of `ms`: submissions, from the first byte sent to the last one
                          ///< read
 };
 
-/// The field of a run that ended before its survey began: no distance is above `upper`.
+/// The field of a run that ended before its survey began: all that is known is that no distance is
+/// above `upper`.
 Field field_within(size_t face_count, double upper);
 
 /// Surveys the pair's A in a run of its own, which takes `engine`, memory and progress from `run`.

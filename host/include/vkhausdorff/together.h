@@ -1,6 +1,6 @@
-// One question on several devices at once, with B on each: A's faces are dealt out, and each
-// device's findings go to the others while they run; or the points are whose closest ones are
-// sought.
+// One question on several devices at once, with B on each. A's faces are dealt out, and each
+// device's findings go to the others while they run. A search for closest points deals out the
+// points instead.
 #pragma once
 
 #include <span>
@@ -28,7 +28,7 @@ Report distance_over(std::span<Solver* const> solvers, const Mesh& a, const Mesh
 /// bit for bit. `goes_on` is called on the caller's thread with the number of points that are done,
 /// and may not use these Solvers.
 ///   A device that is lost, or has no memory for it, leaves its points to the others; the last
-/// one's error is thrown. Throws what Solver::closest throws besides, and UsageError for no Solver.
+/// one's error is thrown. Also throws what Solver::closest throws, and UsageError for no Solver.
 ClosestPoints closest_over(std::span<Solver* const> solvers, const Mesh& b,
                            std::span<const DVec3> points, const ClosestGoesOn& goes_on = {});
 /// Does the same with B prepared on each device: `prepared` has one for each Solver, in their

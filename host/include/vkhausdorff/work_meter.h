@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// The share of the work that is done, and the interval that is known by then.
+/// The share of the work that is done, and the interval known so far.
 struct WorkDone {
   double fraction = 0;  ///< in [0, 1]; it never falls, and is 1 once all work is done
   /// Enclose the whole answer's distance, in the files' units. They never widen.
@@ -32,7 +32,7 @@ struct SideCount {
 /// One thread at a time.
 class WorkMeter {
  public:
-  /// `known` has its meshes: see take_meshes().
+  /// `known` has its meshes: see begin_answer().
   WorkMeter(const Question& question, const Answer& known);
 
   void hear(const Progress& progress);
