@@ -29,20 +29,20 @@ void AskedPair::take(std::shared_ptr<const ReadMesh> a, ShapedMesh b) {
   b_ = std::move(b);
   const bool is_to_move = !question_.align && is_placed(question_, *a_, *b_.mesh);
   if (is_to_move) place_a(question_, movable_a(), *b_.mesh);
-  if (!question_.align) take_meshes();
+  if (!question_.align) begin_answer();
   check_sides(question_, *a_, *b_.mesh);
 }
 
 void AskedPair::fit(Solver& solver, const Observer& observer, const PreparedMesh* b) {
   if (!question_.align) return;
   fit_a(question_, solver, observer, {movable_a(), *b_.mesh, b});
-  take_meshes();
+  begin_answer();
 }
 
 // A length that cannot be resolved must not cost the names and hashes.
-void AskedPair::take_meshes() {
+void AskedPair::begin_answer() {
   Answer known = answer_;
-  vkh::take_meshes(question_, {a_, shape_of(*a_)}, b_, known);
+  vkh::begin_answer(question_, {a_, shape_of(*a_)}, b_, known);
   for (size_t i = 0; i < known.inputs.size(); ++i) {
     Input &named = answer_.inputs[i], &input = known.inputs[i];
     if (!named.path.empty()) input.path = std::move(named.path);

@@ -14,20 +14,20 @@ namespace vkh {
 /// One thread at a time.
 class AskedPair {
  public:
-  /// Its answer is [0, infinity). Throws UsageError as unread_answer() does.
+  /// The answer begins as [0, infinity). Throws UsageError as unread_answer() does.
   explicit AskedPair(Question question);
 
   /// Names a mesh in the answer, A (0) or B (1), by a `path` in place of its own, and adds hashes.
   void name(size_t mesh, const std::string& path, InputHashes hashes);
 
-  /// Takes both meshes, puts A where the question says, fills in what they tell, and refuses meshes
-  /// without sides: place_a(), take_meshes() and check_sides(), and throws what these throw. Where
-  /// a fit is asked for, fit() does the first two.
+  /// Takes both meshes, puts A where the question says, fills in what the meshes determine, and
+  /// refuses meshes that cannot have the sides that are asked for: place_a(), begin_answer() and
+  /// check_sides(). Throws what these throw. If a fit is asked for, fit() does the first two.
   void take(std::shared_ptr<const ReadMesh> a, ShapedMesh b);
   /// Does the same, and moves this mesh where the other call moves a copy.
   void take(std::shared_ptr<ReadMesh> a, ShapedMesh b);
-  /// Lays A onto B, on a device. Does nothing where no fit is asked for. `b`: B on the device of
-  /// the solver, or null. Throws what fit_a() and take_meshes() throw.
+  /// Lays A onto B, on a device. Does nothing if no fit is asked for. `b`: B on the device of
+  /// the solver, or null. Throws what fit_a() and begin_answer() throw.
   void fit(Solver& solver, const Observer& observer, const PreparedMesh* b = nullptr);
 
   /// vkh::solve() of the pair.
@@ -46,13 +46,13 @@ class AskedPair {
 
  private:
   ReadMesh& movable_a();
-  void take_meshes();
+  void begin_answer();
   AskedMeshes meshes(const PreparedMesh* b);
 
   Question question_;
   Answer answer_;
   std::shared_ptr<const ReadMesh> a_;
-  std::shared_ptr<ReadMesh> own_a_;  // A, if nobody else has it
+  std::shared_ptr<ReadMesh> own_a_;  // A, if no caller holds it too
   ShapedMesh b_;
   std::array<KeptPair, 2> kept_;
 };

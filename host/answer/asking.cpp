@@ -11,7 +11,7 @@
 namespace vkh {
 namespace {
 
-/// Meshes and solvers that the caller has.
+/// The meshes and solvers of a caller.
 class GivenMeshes : public AskingSource {
  public:
   GivenMeshes(std::shared_ptr<const ReadMesh> a, std::shared_ptr<const ReadMesh> b,

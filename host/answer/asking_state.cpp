@@ -45,7 +45,7 @@ Observer AskingState::observer() {
           .search =
               [this](const Progress& progress) {
                 hear(progress);
-                tell([&] { return search_words(progress); });
+                report([&] { return search_words(progress); });
                 return !is_called_off();
               },
           .cells =
@@ -54,7 +54,7 @@ Observer AskingState::observer() {
                   const std::lock_guard lock(mutex_);
                   meter_->hear_cells(side);
                 }
-                tell([&] { return count_words("survey", side, "cells bounded"); });
+                report([&] { return count_words("survey", side, "cells bounded"); });
               },
           .leaves =
               [this](const SideCount& side) {
@@ -62,12 +62,14 @@ Observer AskingState::observer() {
                   const std::lock_guard lock(mutex_);
                   meter_->hear_leaves(side);
                 }
-                tell([&] { return count_words("certificate", side, "leaves"); });
+                report([&] { return count_words("certificate", side, "leaves"); });
               },
           .found = [this](const Answer& answer) { keep(answer); }};
 }
 
-void AskingState::tell(const std::function<std::string()>& words) { source_->hear(done(), words); }
+void AskingState::report(const std::function<std::string()>& words) {
+  source_->hear(done(), words);
+}
 
 // Takes the answer that has its meshes and its first bound.
 void AskingState::begin() {
@@ -88,7 +90,7 @@ void AskingState::hear(const Progress& progress) {
   meter_->hear(progress);
   // A later search begins with wider bounds, and without the witness that is kept.
   if (is_final_) return;
-  // The progress covers a part of A's faces and bounds none of the others.
+  // With limits by face the progress is of some of A's faces, and does not bound the others.
   if (question_.is_by_face()) return;
   Report& r = progress.back && known_.b_to_a ? *known_.b_to_a : known_.a_to_b;
   r.lower = progress.lower;

@@ -17,8 +17,9 @@
 
 namespace vkh {
 
-/// Brings a question its meshes and devices, and hears of it. read(), open() and end() are called
-/// in this order, on the thread that works; what they throw ends the question.
+/// Supplies the meshes and devices of a question, and hears of its progress. read(), open() and
+/// end() are called in this order, on the working thread; an exception from one of them ends the
+/// question.
 class AskingSource {
  public:
   virtual ~AskingSource() = default;
@@ -26,13 +27,13 @@ class AskingSource {
   virtual void read(AskedPair& pair) = 0;
   /// Returns the solvers, one at least, and writes the milliseconds that opening them took.
   virtual std::span<Solver* const> open(double& ms) = 0;
-  /// Adds what the answer needs besides.
+  /// Adds to the answer what only the source knows, such as hashes.
   virtual void end(Answer& /*answer*/) {}
 
   /// Whether the caller has called it off; the seconds left for all work. Called at any time.
   virtual bool is_called_off() const { return false; }
   virtual double left_s() const = 0;
-  /// Hears how far all work is. `words`: of the method.
+  /// Hears how far all work is. `words`: returns a description in terms of the method.
   virtual void hear(const WorkDone& /*done*/, const std::function<std::string()>& /*words*/) {}
 };
 
@@ -62,7 +63,7 @@ class AskingState {
   void work();
   Observer observer();
   bool is_called_off() const { return stop_.stop_requested() || source_->is_called_off(); }
-  void tell(const std::function<std::string()>& words);
+  void report(const std::function<std::string()>& words);
   void begin();
   void open(const DeviceDescription& device);
   void end();

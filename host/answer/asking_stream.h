@@ -27,15 +27,15 @@ class StreamedPair {
   virtual ~StreamedPair() = default;
 
   /// The first step, which reads no mesh. Returns the bytes of memory that both meshes take, about;
-  /// nothing if the pair is not wanted: then it is not heard of again.
+  /// nothing if the pair is not wanted: then no other function of it is called.
   virtual std::optional<uint64_t> look() { return 0; }
   /// Makes `pair`, unless look() did, and gives it its meshes.
   virtual void read() = 0;
-  /// Whether other pairs have the same B, the very object.
+  /// Whether other pairs have the same object as B.
   virtual bool shares_b() const = 0;
   /// Whether there is more to do on the device once the pair is solved: finish().
   virtual bool has_more() const = 0;
-  /// Does it, to a copy of `pair` that has its reports.
+  /// Finishes a copy of `pair` that has its reports.
   virtual void finish(AskedPair& solved, Solver& solver) = 0;
 
   std::unique_ptr<AskedPair> pair;  ///< at the end it has its answer, which may be cancelled
@@ -48,16 +48,17 @@ class AskingStream {
   using Deliver = std::function<void(std::unique_ptr<StreamedPair>)>;
   static constexpr uint64_t kReadAhead = uint64_t{2} << 30;
 
-  /// Opens devices in threads of its own. `read_ahead`: most bytes of meshes that are read and have
-  /// not ended; 0: kReadAhead. `deliver` is called by one thread at a time, and must not throw;
-  /// where it is empty, take() has the results.
+  /// Opens devices in threads of its own. `read_ahead`: the most bytes of meshes that are read and
+  /// whose pairs have not ended; 0: kReadAhead. `deliver` is called by one thread at a time, and
+  /// must not throw; if it is empty, take() returns the results.
   explicit AskingStream(StreamOptions devices, uint64_t read_ahead = 0, Deliver deliver = {});
   /// Cancels what is left, and waits for what runs.
   ~AskingStream();
   AskingStream(const AskingStream&) = delete;
   AskingStream& operator=(const AskingStream&) = delete;
 
-  /// Does not wait: threads of the stream look at pairs and read them in this order.
+  /// Adds a pair, without waiting: threads of the stream look at pairs and read them in the order
+  /// in which they were put.
   void put(std::unique_ptr<StreamedPair> one);
   /// Waits until all pairs have ended. No more may be put. Throws DeviceError if no device is left.
   void finish();
@@ -70,7 +71,8 @@ class AskingStream {
 
   /// Returns a pair that has ended, in the order in which pairs end; null if none has.
   std::unique_ptr<StreamedPair> take();
-  /// Waits for one until the deadline. Returns true if there is one, or none is to come.
+  /// Waits until the deadline for a pair to end. Returns true if one has, or if no more are
+  /// expected.
   bool wait(Deadline deadline);
 
   double read_s() const;  ///< the seconds that its threads spent on looking and reading, in all

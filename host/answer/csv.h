@@ -1,5 +1,5 @@
-// Comma-separated values (RFC 4180), as spreadsheets write them: where the comma is the decimal
-// point, by semicolons.
+// Comma-separated values (RFC 4180), as spreadsheets write them: with semicolons where the comma is
+// the decimal point.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,11 @@ std::string csv_bound(double value, Rounding rounding);
 
 class CsvReader {
  public:
-  /// Rows that begin with `comment` are none; '\0' for files without comments.
+  /// Rows that begin with `comment` are skipped; '\0' for files without comments.
   explicit CsvReader(std::istream& text, char comment = '\0') : text_(text), comment_(comment) {}
-  /// The next row that has a cell which is not empty; none at the end. Cells in quotes may hold
-  /// separators, doubled quotes and line ends. Throws InputError for a quote that does not end.
+  /// Returns the next row that has a cell which is not empty; nothing at the end. Cells in quotes
+  /// may hold separators, doubled quotes and line ends. Throws InputError for a quote that does not
+  /// end.
   std::optional<std::vector<std::string>> next();
   uint64_t line() const { return line_; }  ///< the line where that row begins, from 1
   /// A comma, or a semicolon if that comes first in the first row, outside quotes.

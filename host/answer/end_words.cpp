@@ -25,14 +25,15 @@ constexpr std::array<EndRow<Status>, 8> kSearchEnds{{
     {Status::kWaves,
      {"the wave budget ended", "; ask for more --waves", "the effort that was set is used up"}},
     {Status::kMemory,
-     {"the memory did not hold what had to be refined", "; ask for more --memory", kMemoryOnPage}},
+     {"the memory was too small for what had to be refined", "; ask for more --memory",
+      kMemoryOnPage}},
     {Status::kCancelled, {"it was interrupted", kStopped, kStoppedOnPage}},
     {Status::kPruned,
      {"it exceeds a lower bound that was known by no more than the tolerance", nullptr, nullptr}},
     {Status::kLimit, {"the search stopped once the verdict was certain", nullptr, nullptr}},
 }};
 
-// A survey whose effort is used did what was set: page_view.cpp says so beside the figures.
+// A survey that has used its effort did what was set: page_view.cpp says so beside the figures.
 constexpr const char* kNoMore = "; no more --effort decides it";
 constexpr std::array<EndRow<SurveyEnd>, 6> kSurveyEnds{{
     {SurveyEnd::kMet, {"no split narrows it more", kNoMore, nullptr}},

@@ -1,5 +1,4 @@
-// The ends of a search or a survey, in words: first lines, tables and pages take from an end's row
-// what they say of it.
+// The ends of a search or a survey, in words, for first lines, tables and pages.
 #pragma once
 
 #include "vkhausdorff/report.h"

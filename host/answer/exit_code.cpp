@@ -9,7 +9,8 @@ ExitCode code_of(const Answer& answer) {
   if (answer.metrics) return answer.metrics->is_met() ? kExitClosed : kExitNotClosed;
   if (!answer.max) {
     const Status status = interval_of(answer).status;
-    const bool is_pruned = answer.part && status == Status::kPruned;  // all that it was to do
+    const bool is_pruned =
+        answer.part && status == Status::kPruned;  // which is all that a part has to do
     return status == Status::kClosed || is_pruned ? kExitClosed : kExitNotClosed;
   }
   switch (verdict_of(answer)) {

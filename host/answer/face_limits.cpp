@@ -57,7 +57,7 @@ struct FaceRow {
   std::string face, max;
 };
 
-/// What commas or semicolons separate behind the face is its limit, which may be no length.
+/// Joins the cells behind the face to the text of its limit, which need not be a length.
 FaceRow row_of(const std::vector<std::string>& cells, char separator) {
   FaceRow row{.face = std::string(trimmed(cells[0])), .max = {}};
   size_t end = cells.size();

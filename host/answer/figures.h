@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// The quantity of a figure, where its words depend on it. Figures come in this order, A's
+/// The quantity of a figure, if its wording depends on that. Figures come in this order, A's
 /// direction first.
 enum class FigureKind {
   kLargest,  ///< the distance itself
@@ -20,7 +20,7 @@ enum class FigureKind {
   kKept,  ///< the share that other figures are of, with Statistics::max_distance
   kMean,
   kRms,
-  kOther,  ///< any that is told by its name and its value alone
+  kOther,  ///< any whose name and value say all
   kSignedPercentile,
   kPercentile,
   kBand,    ///< the share within a distance
@@ -38,7 +38,7 @@ struct AnswerFigure {
   int power = 1;            ///< of the answer's unit; 0: a share
   double at = 0;            ///< the share of a percentile; the distance that a share is within
   bool jump = false;        ///< no effort narrows it
-  bool is_met = true;       ///< as narrow as it is to be
+  bool is_met = true;       ///< as narrow as was asked
   bool of_normals = false;  ///< of area whose normals agree, too
   bool in_batch = false;    ///< it has columns in a batch's CSV
   bool in_report = false;   ///< it has a row in figures.csv
@@ -52,8 +52,8 @@ std::vector<std::string> survey_columns();
 /// The unit's power as text: "mm^2"; empty where there is none.
 std::string unit_of(const std::string& unit, int power);
 
-/// The interval of a direction and of the whole answer; an upper end that was not sought, after a
-/// limit was failed, is infinite.
+/// The interval of a direction and of the whole answer. The upper end is infinite if it was not
+/// sought because a limit was failed.
 Enclosure deviation_of(const Answer& answer, const Report& report);
 Enclosure deviation_of(const Answer& answer);
 

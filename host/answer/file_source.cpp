@@ -99,7 +99,7 @@ std::future<Session> begin_opening(const Question& question) {
   return begin_now([request] { return open_session(request); });
 }
 
-void take_built_in(AskedPair& asked) {
+void use_built_in_pair(AskedPair& asked) {
   MeshPair pair = default_pair();
   asked.take(std::make_shared<ReadMesh>(std::move(pair.a)),
              shaped(std::make_shared<const ReadMesh>(std::move(pair.b))));
@@ -108,7 +108,7 @@ void take_built_in(AskedPair& asked) {
 /// Reads both files at the same time. Throws what read_mesh throws, A's error before B's. Shows the
 /// progress, and ends with Interrupted when it is to stop. After a bad A the call does not wait for
 /// B, whose threads go on and keep `at`.
-void take_files(const std::shared_ptr<FileWork>& at, AskedPair& asked) {
+void read_files(const std::shared_ptr<FileWork>& at, AskedPair& asked) {
   constexpr uint64_t kWorthwhile = 100'000'000;  // about a second on one core
   const std::string &file_a = at->question.file_a, &file_b = at->question.file_b;
   const uint64_t bytes = file_bytes(path_of(file_a)) + file_bytes(path_of(file_b));
@@ -139,9 +139,9 @@ class FileSource : public AskingSource {
     opening_ = begin_opening(at_->question);
     const auto start = Clock::now();
     if (at_->question.file_a.empty())
-      take_built_in(pair);
+      use_built_in_pair(pair);
     else
-      take_files(at_, pair);
+      read_files(at_, pair);
     pair.answer().waits.read = 1000 * seconds_since(start);
     hashes_->begin_beneath();
   }

@@ -1,6 +1,5 @@
 // The meshes and devices of a command: files are read and hashed, and devices are opened, on other
-// threads, so that the end of its time, Ctrl-C and SIGTERM are handled whatever a driver does
-// meanwhile.
+// threads, so that the end of its time, Ctrl-C and SIGTERM are handled even while a driver hangs.
 #pragma once
 
 #include <memory>
@@ -12,8 +11,8 @@
 namespace vkh {
 
 /// The files that the question names, or the built-in pair where it names none. read() throws what
-/// reading does, and UsageError for a length that the files' units do not resolve, and open() what
-/// Device and Solver throw. Shows how far all work is, by `line`.
+/// reading does, and UsageError for a length that the files' units do not resolve; open() throws
+/// what Device and Solver throw. Shows how far all work is, by `line`.
 std::unique_ptr<AskingSource> files_of(const Question& question, const Stop& stop,
                                        std::shared_ptr<ProgressLine> line);
 

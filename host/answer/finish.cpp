@@ -52,7 +52,7 @@ double survey_time(const Finishing& at, size_t left) {
   return kPartOfTime * std::max(time, 0.0) / static_cast<double>(left);
 }
 
-/// A direction, and what is to be found of the mesh that it begins at.
+/// A direction, and what to find for the mesh that it begins at.
 struct Side {
   const Mesh& from;
   const Mesh& to;
@@ -67,8 +67,8 @@ std::optional<Enclosure> map_range(const Finishing& at) {
   return range_in_files(*at.question.map_range, at.answer);
 }
 
-// Adds the shares that a picture of the map names beside its colours. Its bar ends at the larger
-// limit, or where the map says.
+// Adds the shares that a picture of the map prints beside its colours. Its colour bar ends at the
+// larger limit, or where the map says.
 void add_shares(const Finishing& at, double upper, SurveyResult& survey) {
   if (!survey.map || survey.map->cells.empty()) return;
   BarOptions options{.upper = upper, .range = map_range(at)};
@@ -77,7 +77,7 @@ void add_shares(const Finishing& at, double upper, SurveyResult& survey) {
   survey.shares = shares_of(*survey.map, bar_of(*survey.map, options));
 }
 
-// The colours of a picture go to one and a half times the limit, unless the user says where to.
+// The colours of a picture end at one and a half times the limit, unless the user names the end.
 std::optional<MapOptions> map_options(const Finishing& at) {
   constexpr double kBarOfLimit = 1.5;
   if (at.question.map_pixels <= 0) return {};
@@ -113,7 +113,7 @@ void ask_for_metrics(const MetricsOptions& metrics, SurveyOptions& options) {
       metrics.asks_for({"normal_consistency"}) ? MetricsOptions::kNormalTolerance : kNone;
 }
 
-// `left`: the surveys that are still to come, this one among them.
+// `left`: the number of surveys still to do, including this one.
 SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left) {
   const Question& question = at.question;
   SurveyOptions options;
@@ -135,7 +135,7 @@ SurveyOptions survey_options(const Finishing& at, const Side& side, size_t left)
   options.enough = question.area;
   if (question.metrics) ask_for_metrics(*question.metrics, options);
   if (!has_figures) options.percentiles.clear();
-  if (!has_figures) {  // a share of area is all that is asked
+  if (!has_figures) {  // only a share of area is asked for
     options.narrows_mean = options.narrows_rms = false;
     options.signed_tolerance = options.signed_floor = 1;
   }
@@ -186,7 +186,7 @@ void note(const Finishing& at, NoteCode code, const std::string& text) {
   at.answer.notes.push_back(note_of(code, text));
 }
 
-/// Calls `work`, which surveys; notes where there was no memory for it.
+/// Calls `work`, which surveys. If there is no memory for it, adds a note.
 template <class Work>
 void survey_or_note(const Finishing& at, const std::string& name, SurveyEnd& ended,
                     const Work& work) {
@@ -218,7 +218,7 @@ std::optional<double> uncovered_beyond(const Finishing& at, const Side& side) {
 }
 
 /// Takes the last band out of the figures, and notes that more than a thousandth of B is beyond it.
-void take_coverage(const Finishing& at, double beyond, Statistics& statistics) {
+void note_coverage(const Finishing& at, double beyond, Statistics& statistics) {
   constexpr double kLeast = 1e-3;
   const double share = 1 - statistics.bands.back().share.upper;
   statistics.bands.pop_back();
@@ -231,9 +231,9 @@ void take_coverage(const Finishing& at, double beyond, Statistics& statistics) {
       {share, ""}));
 }
 
-// The second survey knows the first one's shares, and so how narrow f1 is: its own shares need not
-// be narrower than that takes.
-void take_shares_of_a(const Finishing& at, const Side& side, SurveyOptions& options) {
+// The second survey uses the first one's shares to compute how narrow f1 is: its own shares need
+// only be narrow enough for that.
+void use_shares_of_a(const Finishing& at, const Side& side, SurveyOptions& options) {
   const bool has_f1 = at.question.metrics && at.question.metrics->asks_for({"f1"});
   if (!side.back || !has_f1 || !at.answer.survey_a || !at.answer.survey_a->statistics) return;
   for (const AreaWithin& band : at.answer.survey_a->statistics->bands)
@@ -257,15 +257,15 @@ void note_inside_out(const Finishing& at, const Side& side, const SurveyResult& 
 /// The options of a survey after the search, and after the first survey where it is the second.
 SurveyOptions options_for(const Finishing& at, const Side& side, size_t left) {
   SurveyOptions options = survey_options(at, side, left);
-  take_shares_of_a(at, side, options);
+  use_shares_of_a(at, side, options);
   options.upper = side.report.upper;
   const std::optional<double> beyond = uncovered_beyond(at, side);
   if (beyond) options.bands.insert(options.bands.end(), 2, *beyond);
   return options;
 }
 
-/// Takes what a survey found to the report and the notes.
-void take_survey(const Finishing& at, const Side& side, const SurveyOptions& options,
+/// Joins what a survey found to the report and the notes.
+void join_survey(const Finishing& at, const Side& side, const SurveyOptions& options,
                  SurveyResult& result) {
   if (result.ended == SurveyEnd::kCancelled && at.observer.time_left_s() <= 0)
     result.ended = SurveyEnd::kTime;
@@ -273,7 +273,7 @@ void take_survey(const Finishing& at, const Side& side, const SurveyOptions& opt
   join(side.report, result, side.from.faces.size());
   add_shares(at, side.report.upper, result);
   note_inside_out(at, side, result);
-  if (beyond && result.statistics) take_coverage(at, *beyond, *result.statistics);
+  if (beyond && result.statistics) note_coverage(at, *beyond, *result.statistics);
   if (options.statistics && !result.statistics)
     note(at, NoteCode::kSurvey, std::string("there are no statistics of ") + side.name);
 }
@@ -284,7 +284,7 @@ void survey_side(const Finishing& at, const Side& side, size_t left, SurveyResul
     if (at.observer.is_to_go_on())
       hold_pair(at.solver, side.view, survey_run(at), survey_with(options, result));
   });
-  take_survey(at, side, options, result);
+  join_survey(at, side, options, result);
 }
 
 /// Both surveys of a pair that has metrics, while both meshes lie on the device: the pooled
@@ -329,7 +329,7 @@ class Measuring {
   }
 
   void take(size_t i) {
-    take_survey(at_, sides_[i], options_[i], *results_[i]);
+    join_survey(at_, sides_[i], options_[i], *results_[i]);
     ++taken_;
   }
 
@@ -343,7 +343,7 @@ class Measuring {
   }
 
   /// Splits the cells of both meshes around the pooled percentile, which may lie far from their own
-  /// percentiles: first those of the mesh that has more undecided area there.
+  /// percentiles. The mesh that has more undecided area there comes first.
   void narrow_pooled() {
     constexpr int kMostTurns = 4;
     for (int turn = 0; turn < kMostTurns && at_.observer.is_to_go_on(); ++turn) {

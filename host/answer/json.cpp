@@ -64,7 +64,7 @@ Answer answer_from(const Json& json) {
   JsonReader reader(json, Detail::kFull, Missing::kRefused);
   Answer answer;
   visit(reader, answer);
-  take_from_forward(json, answer);
+  fill_in_reverse(json, answer);
   reader.compare();
   visit(reader, answer);
   check_metrics(answer);

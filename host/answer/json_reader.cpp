@@ -50,13 +50,13 @@ double double_of_hex(const std::string& key, std::string_view text, bool is_sign
   return value;
 }
 
-// Compares exactly: the decimal has so many digits that it is read back as the same double.
+// Compares exactly: the decimal has enough digits to be read back as the same double.
 bool is_double(const Json& decimal, double bound) {
   if (decimal.is_null()) return std::isinf(bound);
   return decimal.is_number() && decimal.get<double>() == bound;
 }
 
-/// Versions are numbers between points; what is none of that is later than any.
+/// Versions are numbers between points. A text of another form counts as later than any version.
 bool is_before(const std::string& version, const char* other) {
   const auto numbers = [](std::string_view text) {
     std::array<int, 3> all{std::numeric_limits<int>::max(), 0, 0};
@@ -71,7 +71,7 @@ bool is_before(const std::string& version, const char* other) {
   return numbers(version) < numbers(other);
 }
 
-/// An array of so many numbers.
+/// An array of kCount numbers.
 template <size_t kCount>
 std::array<double, kCount> numbers_in(const Json& json, const char* key, const char* expected) {
   std::array<double, kCount> numbers{};
@@ -298,7 +298,7 @@ bool JsonReader::is_some(const char* key, bool& is_there) {
   return json != nullptr && !json->is_null();
 }
 
-void take_from_forward(const Json& json, Answer& answer) {
+void fill_in_reverse(const Json& json, Answer& answer) {
   if (!answer.b_to_a) return;
   Report& back = *answer.b_to_a;
   back.tolerance = answer.a_to_b.tolerance;

@@ -1,5 +1,5 @@
-// The visitor of members.h that reads them. What was changed since it was written is refused, where
-// the rest contradicts it.
+// The visitor of members.h that reads them. A member that was changed after it was written is
+// refused if the others contradict it.
 #pragma once
 
 #include <concepts>
@@ -259,8 +259,9 @@ class JsonReader {
   std::vector<std::string> lacking_;
 };
 
-/// Gives B's direction what an answer has once for both; and its diagonal where a program before
-/// 0.3.0 has not written it: it is B's, or A's if that direction was not run, as its gap tells.
-void take_from_forward(const Json& json, Answer& answer);
+/// Fills in, for B's direction, the members that an answer has once for both directions. A program
+/// before 0.3.0 did not write that direction's diagonal: it is B's, or A's if the direction was not
+/// run, which its gap shows.
+void fill_in_reverse(const Json& json, Answer& answer);
 
 }  // namespace vkh

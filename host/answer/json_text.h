@@ -11,7 +11,7 @@
 
 namespace vkh {
 
-/// Whether a text can stand in JSON as it is.
+/// Whether a text is valid UTF-8, and so may stand in JSON unchanged.
 bool is_utf8(const std::string& text);
 /// The text as JSON has it: bytes that are no UTF-8 are replaced.
 std::string in_utf8(const std::string& text);

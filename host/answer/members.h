@@ -3,7 +3,7 @@
 // A visitor is called with each member. MemberWriter writes them, as JSON or as another tree, and
 // JsonReader reads them back, so that a new member is one line here. Its kind is the call:
 //   text, number, count, truth, named, ...  what it is; `_or_null`: what is empty or infinite
-//   optional, nullable, mark, ..._if_any    it is missing, or null, where there is nothing to tell
+//   optional, nullable, mark, ..._if_any    missing, or null, if there is no value
 //   bounds, enclosure, ends, down, up       rounded outward, with the doubles in hexadecimal
 //   implied, beside                         the others imply it: written, and compared when read
 //   told, said                              for people: compared where this version has written it
@@ -26,7 +26,7 @@
 
 namespace vkh {
 
-/// A visitor that reads changes what it visits; others are given it as it is.
+/// A visitor that reads changes what it visits; the others see it as const.
 template <class V, class T>
 using Of = std::conditional_t<V::kReads, T, const T>;
 
@@ -46,11 +46,11 @@ inline constexpr Words<InsideOut> kInsideOutWords{inside_out_name, InsideOut::kA
 /// kBrief leaves out times, stages, waves and workspace, which only one run or machine has.
 enum class Detail { kFull, kBrief };
 
-/// The first line, as the other members imply it; none where it has more than they have: the limits
-/// of single faces, or a share as it was typed.
+/// The first line, as the other members imply it. None if it says more than they do: the limits of
+/// single faces, or a share as it was typed.
 std::optional<std::string> implied_words(const Answer& answer);
 
-/// The input's notes, those that name no file with its own.
+/// The input's notes. Notes without a file get the input's.
 std::vector<Note> notes_with_file(const Input& input);
 
 /// A text that is null if it is empty.
@@ -58,7 +58,7 @@ struct TextOrNull {
   std::string text = {};
 };
 
-/// Why a member that is implied is refused: since it is there, or is not; or is another.
+/// The messages for an implied member that is refused: it is there, or is not; or it differs.
 struct Refusals {
   const char *of_presence, *of_value;
 };
@@ -389,7 +389,7 @@ void visit(V& v, Of<V, SurveyResult>& survey) {
   if (v.is_full()) v.number("wall_ms", survey.ms);
 }
 
-/// The survey of one direction's mesh, and what was asked of it.
+/// The survey of one direction's mesh, with its options.
 template <class V>
 void visit_survey(V& v, Of<V, Answer>& answer, bool back) {
   auto& survey = back ? answer.survey_b : answer.survey_a;
@@ -488,7 +488,7 @@ void visit_diagonal_of(V& v, const Length& length) {
       [&] { return "requested '" + length.requested + "' and diagonal_of contradict each other"; });
 }
 
-/// Lengths are null until both meshes are read, which they wait for.
+/// Lengths are null until both meshes are read.
 template <class V>
 void visit_side(V& v, Of<V, Length>& length, Of<V, Limit>& limit, bool is_known) {
   v.length("requested", length);

@@ -99,7 +99,7 @@ void Results::put(const std::map<std::string, Place>& of_file) {
   }
 }
 
-// Gives the same order whatever the files' order.
+// Gives the same order for any order of the files.
 bool Results::is_better(const Place& x, const Place& y) const {
   if (is_failure(x.code) != is_failure(y.code)) return is_failure(y.code);
   if (x.code != y.code) return worse(x.code, y.code) == y.code;

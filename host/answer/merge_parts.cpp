@@ -15,7 +15,7 @@
 namespace vkh {
 namespace {
 
-/// The answer of a part, and what is compared of it.
+/// The answer of a part, and the data by which parts are compared.
 struct Part {
   const WrittenAnswer* written;
   Answer answer;
@@ -146,8 +146,8 @@ const Part& farthest(const std::vector<Part>& parts) {
   });
 }
 
-/// Takes the largest of what parts that ran apart did at the same time.
-void take_largest(const Report& part, Report& all) {
+/// Keeps the largest of each figure of parts that may have run at the same time.
+void keep_largest(const Report& part, Report& all) {
   all.known_lower = std::max(all.known_lower, part.known_lower);
   all.peak_frontier = std::max(all.peak_frontier, part.peak_frontier);
   all.workspace_bytes = std::max(all.workspace_bytes, part.workspace_bytes);
@@ -156,7 +156,7 @@ void take_largest(const Report& part, Report& all) {
 }
 
 /// Joins the reports, the one that has the witness first: its device, switches and check are the
-/// whole's. The check is none if a part was not checked.
+/// whole's. There is no check if a part was not checked.
 Report whole_of(const std::vector<Part>& parts) {
   const Part& first = farthest(parts);
   std::vector<Report> reports{first.answer.a_to_b};
@@ -168,7 +168,7 @@ Report whole_of(const std::vector<Part>& parts) {
   whole.culled.clear();
   whole.peak_frontier = whole.workspace_bytes = 0;
   for (const Report& r : reports) {
-    take_largest(r, whole);
+    keep_largest(r, whole);
     if (!r.witness_check) whole.witness_check.reset();
   }
   whole.status = joined_status(whole, reports);
@@ -221,7 +221,7 @@ std::vector<std::string> arguments_of(const std::vector<std::string>& typed) {
   return out;
 }
 
-void take_times(const Answer& part, Answer& whole) {
+void join_times(const Answer& part, Answer& whole) {
   whole.waits.read = std::max(whole.waits.read, part.waits.read);
   whole.waits.start = std::max(whole.waits.start, part.waits.start);
   whole.waits.total = std::max(whole.waits.total, part.waits.total);
@@ -266,7 +266,7 @@ Answer merge_parts(const std::vector<WrittenAnswer>& written) {
   whole.first_line.clear();
   whole.part.reset();
   whole.parts = parts.size();
-  for (const Part& part : parts) take_times(part.answer, whole);
+  for (const Part& part : parts) join_times(part.answer, whole);
   return whole;
 }
 

@@ -23,10 +23,10 @@ std::vector<WrittenAnswer> read_parts(const std::vector<std::string>& files);
 
 /// Returns the answer of all of A: lower is the largest, with its
 /// witness; upper is the largest; their bits are carried, and only compared. It is closed if that
-/// width is at most the tolerance in exact arithmetic, whatever became of the parts: one that was
-/// pruned by a known lower bound has an upper end like any other. Throws InputError, naming file
-/// and place, unless they are all parts of one A and one B (the SHA-256 of both files), each once,
-/// of one tolerance and one version. There is at least one.
+/// width is at most the tolerance in exact arithmetic, even if parts were not closed: a part that
+/// was pruned by a known lower bound has an upper end like any other. Throws InputError, naming
+/// file and place, unless they are all parts of one A and one B (the SHA-256 of both files), each
+/// once, of one tolerance and one version. There is at least one.
 Answer merge_parts(const std::vector<WrittenAnswer>& parts);
 
 }  // namespace vkh

@@ -28,8 +28,8 @@ bool is_with_unit(const std::string& letters, const KnownName& known) {
   return !unit.empty() && unit_meant(unit) == unit;
 }
 
-/// One letter too many at the end is a slip, of short names the only one: mat and map are not max,
-/// nor is tool tol.
+/// One extra letter at the end counts as a typing error, and for short names nothing else does: mat
+/// and map do not mean max, nor does tool mean tol.
 bool is_slip(const std::string& letters, const std::string& name) {
   return name.size() >= 3 && letters.starts_with(name) && letters.size() == name.size() + 1;
 }

@@ -1,4 +1,4 @@
-// The column or keyword that a name which is none may mean, such as max for Max, maxx and limit.
+// Guesses the column or keyword that an unknown name may mean, such as max for Max, maxx and limit.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace vkh {
 
-/// A name, and what people call it besides, in lower case without blanks.
+/// A name, and other names that people use for it, in lower case without blanks.
 struct KnownName {
   std::string name;
   std::vector<std::string> also = {};

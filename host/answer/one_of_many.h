@@ -8,10 +8,11 @@
 
 namespace vkh {
 
-/// The memory per byte of a file, while it is read and as a mesh, about.
+/// About the memory per byte of a file, while it is read and as a mesh.
 constexpr uint64_t kBytesOfAByte = 3;
 
-/// Reads a smaller file on this thread alone: it gains little from more, and others read beside it.
+/// Reads a small file on this thread alone: it gains little from more threads, and other files are
+/// read at the same time.
 ReadMesh read_one_of_many(const std::string& file, ReadLimits limits);
 
 }  // namespace vkh

@@ -46,7 +46,7 @@ std::string text_of(const Option& option, const Given& given) {
   return text;
 }
 
-/// Reads a number up to its end; nothing where the text is none. Unlike parse_number(), it takes
+/// Reads a whole text as a number; nothing if it is not one. Unlike parse_number(), it takes
 /// inf, which a time may be.
 std::optional<double> number_in(const std::string& text) {
   double number = 0;

@@ -1,5 +1,5 @@
-// How a text becomes the value of an option, and the value a line of a pair's key: by the kind of
-// the option, but for those that fill in more than one member.
+// Converts a text to the value of an option, and the value to a line of a pair's key, by the kind
+// of the option. Options that fill in more than one member have functions of their own.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace vkh {
 
-/// Cells to bound at most of a pair in a batch with --metrics: a few pairs that need more would
+/// The most cells to bound for a pair of a batch with --metrics: a few pairs that need more would
 /// take most of the list's time (docs/log/measurements.md).
 constexpr uint64_t kEffortOfMetrics = 1'000'000;
 

@@ -11,7 +11,7 @@
 namespace vkh {
 namespace {
 
-/// The part of what is asked that has members of this class.
+/// The part of a request that has members of this class.
 template <class Part>
 Part& part_of(Request& asked);
 template <>
@@ -104,12 +104,12 @@ std::vector<Option> options_of_the_question() {
       "Also tell where A is over B, in front of its faces as they are oriented, and where under "
       "it, as far as that is proven; ";
   const std::string effort =
-      "Cells to bound at most for figures and faces' bounds, besides each face once; the same "
+      "The most cells to bound for figures and faces' bounds, after each face once; the same "
       "number gives the same bits on a device [" +
       std::to_string(default_effort(false)) + " on a GPU, " + std::to_string(default_effort(true)) +
       " on a CPU";
   const std::string farther =
-      " what is farther, and say its share: strays of a scan; h and verdicts are of all of A";
+      " what is farther, and say its share: stray points of a scan; h and verdicts are of all of A";
   return {
       {.name = "max",
        .kind = Kind::kLength,
@@ -145,7 +145,7 @@ std::vector<Option> options_of_the_question() {
        .group = Group::kQuestion,
        .target = Own{put_area, area_text},
        .uses = {{kGate,
-                 "Ask that so much of A's area is within the limit, such as 99.5%, in place of "
+                 "Ask that this share of A's area is within the limit, such as 99.5%, instead of "
                  "every point"}},
        .few = kGate,
        .functions = kPyGate},
@@ -153,10 +153,9 @@ std::vector<Option> options_of_the_question() {
        .kind = Kind::kFlag,
        .group = Group::kQuestion,
        .target = to<&Question::worst>,
-       .uses =
-           {{kGate,
-             "After the verdict, go on to the farthest point; with --image, --report or --field "
-             "that is so without it"}},
+       .uses = {{kGate,
+                 "After the verdict, go on to the farthest point, as --image, --report and --field "
+                 "do"}},
        .few = kGate,
        .functions = kPyGate},
       {.name = "tol",
@@ -186,15 +185,15 @@ std::vector<Option> options_of_the_question() {
        .group = Group::kQuestion,
        .target = to<&Stated::part>,
        .uses = {{kDistance,
-                 "Of A's faces part I alone, from 0, of N; 'merge' joins the answers of all "
+                 "Only part I of N of A's faces, from 0; 'merge' joins the answers of all "
                  "parts"}}},
       {.name = "known-lower",
        .kind = Kind::kLength,
        .group = Group::kQuestion,
        .target = to<&Question::known_lower>,
        .uses = {{kDistance,
-                 "What another part has shown: what is within the tolerance of it is not "
-                 "refined"}}},
+                 "A bound that another part has proven: what is within the tolerance of it is "
+                 "not refined"}}},
       {.name = "stats",
        .kind = Kind::kFlag,
        .group = Group::kQuestion,
@@ -218,7 +217,7 @@ std::vector<Option> options_of_the_question() {
        .group = Group::kQuestion,
        .target = to<&Request::metrics>,
        .uses = {{kBatch,
-                 "Both directions' figures by the names that papers use, as of 'metrics'"}}},
+                 "Both directions' figures by the names that papers use, as 'metrics' has them"}}},
       {.name = "percentile",
        .kind = Kind::kPercentile,
        .group = Group::kQuestion,
@@ -230,7 +229,7 @@ std::vector<Option> options_of_the_question() {
        .kind = Kind::kLengths,
        .group = Group::kQuestion,
        .target = to<&Question::bands>,
-       .uses = {{kSurveyed, "And the shares of A's area within these distances: 0.1mm,0.5mm"},
+       .uses = {{kSurveyed, "Also the shares of A's area within these distances: 0.1mm,0.5mm"},
                 {kMetrics | kBatch,
                  "Also the shares of area within these distances, nsd, precision (A's), recall "
                  "(B's) and f1: 0.5mm,1%; a percentage is of A's diagonal"}},
@@ -241,7 +240,7 @@ std::vector<Option> options_of_the_question() {
        .group = Group::kQuestion,
        .target = to<&MetricsOptions::figures>,
        .uses = {{kMetrics | kBatch,
-                 "Seek these alone, which takes less time: f1,hd95,assd; others are as wide as "
+                 "Seek only these, which takes less time: f1,hd95,assd; others stay as wide as "
                  "that leaves them [all]"}},
        .few = kMetrics,
        .functions = kPyMetrics,
@@ -270,7 +269,7 @@ std::vector<Option> options_of_the_question() {
        .group = Group::kQuestion,
        .target = to<&Question::face_tolerance>,
        .uses = {{kSurveyed,
-                 "Bound the largest distance on each face of A, to so much [1 % of the "
+                 "Bound the largest distance on each face of A, to this width [1 % of the "
                  "largest]"}},
        .functions = kPyPair,
        .keyword = "field",
@@ -289,7 +288,7 @@ std::vector<Option> options_of_the_question() {
        .kind = Kind::kFlag,
        .group = Group::kQuestion,
        .target = to<&SimplifyRequest::one_way>,
-       .uses = {{kSimplify, "Limit the points of A alone: the result may reach farther from A"}},
+       .uses = {{kSimplify, "Limit only the points of A: the result may reach farther from A"}},
        .few = kSimplify,
        .functions = kPySimplify},
       {.name = "lock-borders",
@@ -359,8 +358,8 @@ std::vector<Option> options_of_placement() {
        .kind = Kind::kUnit,
        .group = Group::kPlacement,
        .target = to<&Question::unit>,
-       .uses = {{kReading, "What the files are in, where they do not say: um, mm, cm, m, in or ft"},
-                {kSimplify, "What A's file is in, if it does not say: um, mm, cm, m, in or ft"}},
+       .uses = {{kReading, "The unit of files that do not say theirs: um, mm, cm, m, in or ft"},
+                {kSimplify, "The unit of A's file, if it does not say: um, mm, cm, m, in or ft"}},
        .few = kReading | kSimplify,
        .is_column = true,
        .choices = units()},
@@ -368,8 +367,7 @@ std::vector<Option> options_of_placement() {
        .kind = Kind::kUnit,
        .group = Group::kPlacement,
        .target = to<&Question::unit_a>,
-       .uses = {{kReading,
-                 "What A's file is in; where B is in another unit, A is converted to that"}},
+       .uses = {{kReading, "The unit of A's file; if B has another unit, A is converted to that"}},
        .is_column = true,
        .functions = kPySolving,
        .choices = units()},
@@ -377,7 +375,7 @@ std::vector<Option> options_of_placement() {
        .kind = Kind::kUnit,
        .group = Group::kPlacement,
        .target = to<&Question::unit_b>,
-       .uses = {{kReading, "What B's file, and so the answer, is in"}},
+       .uses = {{kReading, "The unit of B's file, and so of the answer"}},
        .is_column = true,
        .functions = kPySolving,
        .choices = units()},
@@ -585,7 +583,7 @@ std::vector<Option> options_of_drawing() {
            .kind = Kind::kCount,
            .group = Group::kDrawing,
            .target = to<&Look::steps>,
-           .uses = {{drawing, "So many steps of colour, 256 at most [smooth]"}},
+           .uses = {{drawing, "Number of steps of colour, 256 at most [smooth]"}},
            .noun = "steps",
            .most = 256,
            .unlike = kDrawn}};
@@ -597,7 +595,7 @@ std::vector<Option> options_of_many() {
        .kind = Kind::kInput,
        .group = Group::kMany,
        .target = to<&ManyRequest::against>,
-       .uses = {{kBatch, "One mesh to go to for all that are named"}},
+       .uses = {{kBatch, "The mesh to which all named ones are compared"}},
        .few = kBatch,
        .shape = "B",
        .unlike = "the hash of the file is in the key"},
@@ -606,15 +604,15 @@ std::vector<Option> options_of_many() {
        .group = Group::kMany,
        .target = to<&ManyRequest::allows_unpaired>,
        .uses = {{kBatch,
-                 "Name and count the meshes of two folders that have no partner, and let them cost "
-                 "no exit code [each is a pair without an answer, code 4]"}},
+                 "Name and count the meshes of two folders that have no partner, without an error "
+                 "[each is a pair without an answer, code 4]"}},
        .unlike = "such a mesh has no pair"},
       {.name = "resume",
        .kind = Kind::kFlag,
        .group = Group::kMany,
        .target = to<&ManyRequest::resumes>,
        .uses = {{kBatch,
-                 "Keep the results that there are, and do what they have not, or not of these "
+                 "Keep existing results, and do pairs that have none, or none of these "
                  "inputs and options"}},
        .few = kBatch,
        .unlike = kHost},
@@ -725,8 +723,8 @@ std::vector<Option> options_of_cost() {
        .group = Group::kCost,
        .target = to<&Budget::time_limit_s>,
        .uses = {{kPair | kSimplify | kDemo,
-                 "Answer after so long, from the program's start: 250ms, 10s, 2min [no limit]"},
-                {kBatch, "End a pair's run after so long: 250ms, 10s, 2min [no limit]"}},
+                 "Answer after this time, from the program's start: 250ms, 10s, 2min [no limit]"},
+                {kBatch, "End a pair's run after this time: 250ms, 10s, 2min [no limit]"}},
        .few = kPair | kSimplify | kDemo,
        .functions = kPySolving | kPySimplify},
       {.name = "survey-time",
@@ -746,7 +744,7 @@ std::vector<Option> options_of_cost() {
        .kind = Kind::kCount,
        .group = Group::kCost,
        .target = to<&Budget::wave_limit>,
-       .uses = {{kSolving, "End the search after so many waves [no limit]"}},
+       .uses = {{kSolving, "End the search after this many waves [no limit]"}},
        .functions = kPySolving,
        .noun = "waves",
        .most = 4294967295},

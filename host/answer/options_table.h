@@ -1,6 +1,6 @@
-// Every option, a row each: from it the program makes its options, their help and the columns of
-// lists, Python its keywords, and a batch the keys by which it knows a pair again. Man page,
-// completions and the package's signatures are made from it by tools/options.
+// Every option, one row each. The program makes its options, their help and the columns of lists
+// from it; Python, its keywords; and a batch, the keys by which it recognises a pair. tools/options
+// makes the man page, the completions and the package's signatures from it.
 #pragma once
 
 #include <optional>
@@ -64,7 +64,7 @@ using Member = T& (*)(Request&);
 /// An option that fills in more than one member, or one by a rule of its own.
 struct Own {
   void (*put)(const Given& given, Request& asked);
-  /// For keys, another one for each other value; null: it is in none.
+  /// The text for keys, which differs for different values; null: the option is in no key.
   std::string (*text)(const Request& asked);
 };
 
@@ -101,12 +101,13 @@ struct Option {
   const char* keyword = "";               ///< Python's name, where it is another one
   const char* shape = "";                 ///< of its value in help; empty: the kind's
   std::vector<std::string> choices = {};  ///< of other kinds than kChoice and kNames: some of many
-  bool has_others = false;     ///< of names: choices are not all, and complete() checks them
+  bool has_others = false;     ///< of names: `choices` is not complete, and complete() checks them
   const char* noun = "";       ///< what a count is of, in the plural
   const char* none = "";       ///< Python's default, where the kind does not say it
   double least = 0, most = 0;  ///< of counts and numbers
-  std::vector<std::string> also = {};  ///< what people call it, in lower case without blanks
-  const char* unlike = "";  ///< why two values are one question: not part of a pair's key
+  std::vector<std::string> also = {};  ///< other names for it, in lower case without blanks
+  const char* unlike =
+      "";  ///< why its value does not change the question: not part of a pair's key
 };
 
 /// All options, in the order of their help.
@@ -124,7 +125,7 @@ std::string keyword_name(const Option& option);
 /// The default of a keyword, as Python writes it.
 std::string keyword_default(const Option& option, Functions function);
 
-/// How a command has the option; null: it does not.
+/// The use of the option by a command; null: the command does not have it.
 const Use* use_of(const Option& option, Commands command);
 
 /// The shape of its value in help: LENGTH, FILE, fan|any; empty for a flag.
@@ -162,7 +163,7 @@ void fill(const Option& option, Request& asked, const Read& read) {
 /// expected form.
 void put(const Option& option, const Given& given, Request& asked);
 
-/// All that a pair's answer depends on: a line for each option whose value is not that of none.
+/// All that a pair's answer depends on: a line for each option that differs from its default.
 std::string key_text(Request asked);
 
 }  // namespace vkh

@@ -40,7 +40,7 @@ std::vector<Ratio> ratios(const Box& a, const Box& b) {
   return all;
 }
 
-/// The factor between two units by which the diagonals differ, and each extent about so.
+/// The factor between two units by which the diagonals differ, and about by which each extent does.
 std::optional<double> unit_factor(const Box& a, const Box& b, const std::vector<Ratio>& all) {
   const double of_diagonals = diagonal(a) / diagonal(b);
   const auto is_near = [](double ratio, double factor, double error) {
@@ -85,7 +85,8 @@ Note note_on_units(double factor, const std::string& option) {
   return note_of(NoteCode::kUnits, text, {factor, ""});
 }
 
-/// Asks about strays where the surfaces are alike but for their boxes, and else about parts.
+/// Asks about stray points if the surfaces are alike except for their boxes, and otherwise about
+/// parts.
 std::string question_on_size(const Ratio& worst, bool is_alike) {
   const bool is_larger = worst.of_extents > 1;
   if (is_alike)
@@ -112,7 +113,7 @@ std::optional<Note> note_on_size(const std::vector<Ratio>& all, bool is_alike) {
   return note;
 }
 
-/// Flat parts that lie a hair apart are not meant.
+/// Flat parts that lie a hair apart do not count.
 bool are_disjoint(const Box& a, const Box& b) {
   const double least = kDisjoint * diagonal(b);
   for (int i = 0; i < 3; ++i) {

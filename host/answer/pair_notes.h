@@ -10,21 +10,21 @@
 
 namespace vkh {
 
-/// A mesh as the notes look at it.
+/// The figures of a mesh that the notes compare.
 struct MeshShape {
   Box box;
   PrincipalAxes axes = {};
 };
 MeshShape shape_of(const Mesh& mesh);
 
-/// Notes that the user may not have meant this pair: `units`, A's box is smaller or larger than B's
-/// by 25.4, 10, 100 or 1000, to within 2 % of the diagonal and 10 % on every axis; otherwise
-/// `turn`, the principal axes are turned (turn_between()); otherwise `size`, A's box is under 0.8
-/// or over 1.25 times B's on an axis; and `apart`, the boxes are a hundredth of B's diagonal apart,
-/// or their centres a tenth. Axes on which both are under a thousandth of the smaller diagonal do
-/// not count. `unit` is the coordinates'; empty: unknown. `unit_option` begins the names of the
-/// options that convert A. `is_fitted`: A lies as a fit has turned it. Axes that are turned then
-/// tell of another shape, and `turn` is left out.
+/// Finds signs that the user may not have meant this pair: `units`, A's box is smaller or larger
+/// than B's by 25.4, 10, 100 or 1000, to within 2 % of the diagonal and 10 % on every axis;
+/// otherwise `turn`, the principal axes are turned (turn_between()); otherwise `size`, A's box is
+/// under 0.8 or over 1.25 times B's on an axis; and `apart`, the boxes are a hundredth of B's
+/// diagonal apart, or their centres a tenth. Axes on which both are under a thousandth of the
+/// smaller diagonal do not count. `unit` is the coordinates'; empty: unknown. `unit_option` begins
+/// the names of the options that convert A. `is_fitted`: A lies as a fit has turned it. Turned axes
+/// then mean another shape, and `turn` is left out.
 std::vector<Note> notes_on_pair(const MeshShape& a, const MeshShape& b, const std::string& unit,
                                 const std::string& unit_option = "--unit", bool is_fitted = false);
 

@@ -31,8 +31,8 @@ inline std::string clock_text(double seconds) {
   return text.data();
 }
 
-/// The line of a pair: how much of all work is done, the interval so far, and the time that is left
-/// where it is limited.
+/// The line of a pair: how much of all work is done, the interval so far, and, if the time is
+/// limited, the time left.
 inline std::string progress_text(const WorkDone& done, double left_s) {
   std::string text = std::to_string(static_cast<int>(100 * done.fraction)) + " %  [" +
                      decimal(done.lower, 7, Rounding::kDown) + ", " +

@@ -16,12 +16,12 @@ const char* outcome_word(const Result& result);
 
 /// The lower end as a multiple of the limit, rounded down; 0: no limit, or no answer.
 double share_of_limit(const Result& result);
-/// "3.48": that in three digits, rounded down; empty: no limit, or no answer.
+/// share_of_limit() in three digits, rounded down, such as "3.48"; empty: no limit, or no answer.
 std::string share_of_limit_text(const Result& result);
 
-/// A place in the order. Of one outcome, pairs without a limit come first, by their lower ends;
-/// then the others by the share of their limits. No upper end counts: a run with a limit stops
-/// before it is found.
+/// A place in the order. Within an outcome, pairs without a limit come first, by their lower ends,
+/// and then the others by the share of their limits. Upper ends do not count: a run with a limit
+/// stops before it finds one.
 struct Rank {
   Outcome outcome = Outcome::kWithin;
   bool has_limit = false;

@@ -1,4 +1,4 @@
-// All that a command may be asked, as its options fill it in: options_table.h has a row for each.
+// The request to a command, as its options fill it in: options_table.h has a row for each option.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ struct Look {
   uint64_t steps = 0;                          ///< of colour; 0: smooth
 };
 
-/// The places of an answer besides the table.
+/// The outputs of an answer other than the table.
 struct Outputs {
   bool json = false;  ///< one object on standard output instead of the table
   std::string out;    ///< the results of many pairs, or the mesh of fewer faces
@@ -40,7 +40,7 @@ struct Outputs {
   bool has_pictures() const { return shows_cells() || certificate; }
 };
 
-/// The options of many pairs, besides the question about each.
+/// The options of many pairs, in addition to the question about each.
 struct ManyRequest {
   std::vector<std::string> files;  ///< as they were named: a list, folders, meshes or results
   std::string against;             ///< one B for each of `files`; empty: they name pairs
@@ -54,7 +54,7 @@ struct ManyRequest {
   uint64_t read_ahead_bytes = 0;
 };
 
-/// The options of `simplify`, besides the question about its mesh.
+/// The options of `simplify`, in addition to the question about its mesh.
 struct SimplifyRequest {
   bool one_way = false, lock_borders = false;
   uint64_t levels = 0;  ///< 0: one mesh, as few faces as are found
@@ -70,7 +70,7 @@ struct Request {
   ManyRequest many;
   SimplifyRequest simplify;
 
-  std::set<std::string_view> given;  ///< names of the options that were
+  std::set<std::string_view> given;  ///< names of the options that were given
   bool has(std::string_view option) const { return given.count(option) > 0; }
 };
 

@@ -94,7 +94,7 @@ Result read_result(std::string_view line) {
   Result result;
   visit(reader, result);
   if (result.name.id.empty()) throw InputError("a result without an id or a code");
-  take_from_forward(json, result.answer);
+  fill_in_reverse(json, result.answer);
   result.lacking = reader.lacking();
   if (!result.lacking.empty()) return result;
   reader.compare();

@@ -32,7 +32,7 @@ struct Result {
   bool has_answer() const { return !failure; }
   /// The answer's first line, or the error.
   std::string words() const { return failure ? failure->message : in_words(answer); }
-  /// Whether another run of the same inputs would give the same result, but for times.
+  /// Whether another run of the same inputs would give the same result, except for times.
   bool is_final() const;
   /// Whether the upper end of the whole interval was sought.
   bool is_upper_sought() const;
@@ -48,7 +48,7 @@ struct Result {
 Result result_of(ResultName name, Answer answer);
 Result result_of(ResultName name, Failure failure, Answer known);
 
-/// The line without a newline. Values of one run or machine alone come last, in `run`.
+/// The line without a newline. Values that only one run or machine has come last, in `run`.
 std::string to_line(const Result& result);
 /// The same line without `run`: the part that two runs have in common.
 std::string without_run(const std::string& line);

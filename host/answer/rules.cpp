@@ -19,8 +19,8 @@ constexpr Commands kAll = kProgram | kPython;
 
 using When = std::function<bool(const Request&)>;
 
-/// `when` holds and one of `options` was given: refused with what it says, where
-/// "{option}" is that one, and "{stats}" the name of another.
+/// Refuses a request if `when` holds and one of `options` was given. In its message "{option}"
+/// stands for that option, and "{stats}" for the name of another.
 struct Rule {
   Names options;
   When when;
@@ -28,11 +28,12 @@ struct Rule {
   Commands of = kProgram;
 };
 
-/// The same for whoever asks, by command line, list, Python or C++: no question may be so.
+/// A rule for every question, no matter whether it comes from a command line, a list, Python or
+/// C++.
 struct QuestionRule {
   bool (*when)(const Question&);
   const char* says;
-  bool is_of_all = false;  ///< what is still to be filled in may put it right
+  bool is_of_all = false;  ///< members that are filled in later may satisfy it
 };
 
 bool any_of(const Request& asked, const Names& names) {
@@ -54,7 +55,7 @@ bool is_of_triangles(const Request& asked) {
          any_of(asked, kPages);
 }
 
-// Pairs of a list may ask for figures by themselves.
+// A pair of a list may ask for figures itself.
 bool has_no_survey(const Request& asked) {
   const bool has_list =
       asked.command == kBatch && asked.many.against.empty() && asked.many.files.size() == 1;
@@ -83,10 +84,10 @@ std::vector<Rule> rules_of_placement() {
 std::vector<Rule> rules_of_limits() {
   return {{{"known-lower"},
            without({"part"}),
-           "{known-lower}: is what other parts have shown: ask for a {part}"},
+           "{known-lower}: is a bound from other parts: ask for a {part}"},
           {{"face-max-b"},
            without({"symmetric"}),
-           "{face-max-b}: limits of B's faces are asked about by {symmetric} alone"},
+           "{face-max-b}: limits of B's faces need {symmetric}"},
           {{"polygons"},
            [](const Request& asked) {
              return asked.question.limits.any_triangulation && is_of_triangles(asked);
@@ -107,7 +108,7 @@ std::vector<Rule> rules_of_figures() {
            kBatch},
           {{"max-distance"},
            without(std::move(shown)),
-           "{max-distance}: is of figures and pictures: ask for {stats}, {bands}, {image} or "
+           "{max-distance}: concerns figures and pictures: ask for {stats}, {bands}, {image} or "
            "{report}; in a batch for {image-dir} or {report-dir}"},
           {{"effort"},
            has_no_survey,
@@ -124,18 +125,18 @@ std::vector<Rule> rules_of_figures() {
 std::vector<Rule> rules_of_pictures() {
   const Names look{"view", "up", "size", "range", "steps"};
   return {{look, without({"image", "report"}),
-           "{option}: is of a picture: ask for {image} or {report}", kDistance | kGate | kDemo},
+           "{option}: concerns a picture: ask for {image} or {report}", kDistance | kGate | kDemo},
           {look, without({"image-dir", "report-dir"}),
-           "{option}: is of a picture: ask for {image-dir} or {report-dir}", kBatch},
+           "{option}: concerns a picture: ask for {image-dir} or {report-dir}", kBatch},
           {{"map"},
            without({"image", "report", "field"}),
-           "{map}: is of colours: ask for {image}, {report} or {field}",
+           "{map}: concerns colours: ask for {image}, {report} or {field}",
            kDistance | kGate | kDemo},
           {{"map"},
            without({"image-dir", "report-dir"}),
-           "{map}: is of colours: ask for {image-dir} or {report-dir}",
+           "{map}: concerns colours: ask for {image-dir} or {report-dir}",
            kBatch},
-          {{"title"}, without({"report"}), "{title}: is of a page: ask for {report}"}};
+          {{"title"}, without({"report"}), "{title}: concerns a page: ask for {report}"}};
 }
 
 bool is_native(const Request& asked) { return asked.question.is_native(); }
@@ -143,7 +144,7 @@ bool is_native(const Request& asked) { return asked.question.is_native(); }
 std::vector<Rule> rules_of_devices() {
   return {{{"threads"},
            [](const Request& asked) { return !is_native(asked); },
-           "{threads}: are of {device} native"}};
+           "{threads}: only for {device} native"}};
 }
 
 std::vector<Rule> rules_of_simplify() {
@@ -151,10 +152,10 @@ std::vector<Rule> rules_of_simplify() {
            [](const Request& asked) { return asked.question.max_sides.has_value(); },
            "{max}: expected one length, such as 0.1mm",
            kSimplify},
-          {{"ratio"}, without({"levels"}), "{ratio}: is of {levels}", kSimplify},
+          {{"ratio"}, without({"levels"}), "{ratio}: only with {levels}", kSimplify},
           {{"certificate"},
            with({"levels"}),
-           "{certificate}: is of one mesh: leave {levels} out",
+           "{certificate}: proves one mesh: leave {levels} out",
            kSimplify}};
 }
 
@@ -178,24 +179,24 @@ constexpr QuestionRule kQuestionRules[] = {
     {[](const Question& q) { return q.metrics && q.max_distance; },
      "{max-distance}: metrics are of all of A and B"},
     {[](const Question& q) { return q.max_distance && (q.area || q.asks_for_sides()); },
-     "{max-distance}: leaves out of figures and pictures alone: no {area}, no sides"},
+     "{max-distance}: only concerns figures and pictures: no {area}, no sides"},
     {[](const Question& q) { return q.max_distance && !q.statistics && !(q.map_pixels > 0); },
-     "{max-distance}: is of figures and of pictures by cells, which are not asked for", true},
+     "{max-distance}: concerns figures and pictures by cells, and none are asked for", true},
     {[](const Question& q) { return q.verify && q.is_by_face(); },
-     "{verify}: is not to be had with {face-max}"},
+     "{verify}: not possible with {face-max}"},
     {[](const Question& q) { return q.area && q.is_by_face(); },
      "{area}: faces with limits of their own are asked about whole"},
     {[](const Question& q) { return q.symmetric && q.face_limits_a; },
-     "{max}: limits of A's faces say nothing of B's; ask for each direction apart"},
+     "{max}: limits of A's faces are no limits of B's; ask for each direction separately"},
     {[](const Question& q) { return q.certificate && (q.area || q.is_by_face()); },
      "{certificate}: is of the interval, not to be had with {area} or {face-max}"},
     {[](const Question& q) { return q.max_sides && q.symmetric; },
      "{symmetric}: limits of two sides are of A's points, over B or under it, and a dent of A is "
-     "no dent of B; ask for each direction by itself"},
+     "no dent of B; ask for each direction separately"},
     {[](const Question& q) { return q.max_sides && (q.is_by_face() || q.area); },
-     "{max}: limits of two sides are of every point, and not to be had by face or by area"},
+     "{max}: limits of two sides hold for every point: not possible by face or by area"},
     {[](const Question& q) { return q.part && q.align; },
-     "{part}: is of A where it lies: find the place once, by {align} and {save-transform}, and "
+     "{part}: needs a fixed place of A: find it once, by {align} and {save-transform}, and "
      "give it to each part by {transform}"},
     {[](const Question& q) { return q.part && (q.symmetric || q.worst || q.asks_for_cells()); },
      "{part}: one direction's interval is all that is to be had of a part: no {symmetric}, "
@@ -245,7 +246,7 @@ void refuse_natively_asked(const Question& question, const Naming& naming) {
   }
 }
 
-/// `is_all`: nothing is still to be filled in.
+/// `is_all`: all members are filled in.
 void check_question(const Question& question, const Naming& naming, bool is_all) {
   if (question.is_native()) refuse_natively_asked(question, naming);
   for (const QuestionRule& rule : kQuestionRules) {

@@ -13,15 +13,16 @@ namespace vkh {
 using Naming = std::function<std::string(std::string_view option)>;
 std::string with_dashes(std::string_view option);
 
-/// Throws UsageError for the first rule that what is asked breaks.
+/// Throws UsageError for the first rule that the request breaks.
 void check_together(const Request& asked, const Naming& naming);
 
-/// Fills in what the options that were given imply. Throws UsageError for figures that no metrics
-/// have, and for the first rule of questions that is broken. Call it once, after check_together().
+/// Fills in what the options that were given imply. Throws UsageError for unknown figures of
+/// metrics, and for the first rule of questions that is broken. Call it once, after
+/// check_together().
 void complete(Request& asked, const Naming& naming);
 
-/// Throws UsageError for the first rule of questions that a whole one breaks, whoever asks it:
-/// unread_answer() does so for all.
+/// Throws UsageError for the first rule that a complete question breaks. unread_answer() calls it
+/// for every question.
 void check_question(const Question& question);
 
 }  // namespace vkh

@@ -22,7 +22,8 @@ Opened open_one(const std::string& selector, const SessionRequest& request) {
   return one;
 }
 
-// A device's name may have commas, which opening one finds out; a list of indices is none.
+// A device's name may have commas, which only opening one can tell; a list of indices is never a
+// name.
 bool is_one(const std::string& selector) {
   if (selector == "all") return false;
   if (selector.find(',') == std::string::npos) return true;

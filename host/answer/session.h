@@ -22,9 +22,9 @@ struct Session {
   double setup_ms = 0;       ///< the time to make it
 };
 
-/// Splits "all", every GPU, or the CPU device where there is none; else names that DeviceRequest
-/// takes, between commas, unless it is a device's name that has some. Throws UsageError for an
-/// empty one, and for kNative among others.
+/// Splits a list of devices: "all" is every GPU, or the CPU device if there is none; otherwise
+/// selectors of DeviceRequest between commas, unless the whole is the name of a device. Throws
+/// UsageError for an empty selector, and for kNative beside others.
 std::vector<std::string> selectors_of(const std::string& text);
 
 struct SessionRequest {

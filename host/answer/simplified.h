@@ -26,7 +26,7 @@ struct SimplifiedFile {
 struct SimplifyAnswer {
   std::vector<std::string> words;
   Input input;
-  std::string unit;  ///< every length's; empty: A's own, whatever it is
+  std::string unit;  ///< the unit of every length; empty: A's, which is not known
   Length max;
   Limit limit;  ///< the same length in the unit
   bool one_way = false, lock_borders = false;
@@ -47,7 +47,7 @@ std::string in_words(const SimplifyAnswer& answer);
 void print_table(std::ostream& out, const SimplifyAnswer& answer);
 /// One line of docs/schema/simplify.schema.json.
 std::string to_json(const SimplifyAnswer& answer);
-/// The same with the error that there is instead.
+/// The same line for an error.
 std::string to_simplify_json(const Failure& failure);
 
 }  // namespace vkh

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kLeastTime = 1e-3;  // even a spent budget buys a first, true interval
 
-SolveOptions heard_options(const Question& question, const Observer& observer,
-                           const Answer& answer) {
+SolveOptions observed_options(const Question& question, const Observer& observer,
+                              const Answer& answer) {
   SolveOptions options = solve_options(question, answer);
   if (observer.left_s) options.time_limit_s = std::max(observer.left_s(), kLeastTime);
   options.progress = observer.search;
@@ -56,7 +56,7 @@ Report gate(const GatedSide& side, const SolveOptions& options, Solver& solver,
 /// Solves both directions on their own: limits of faces bound nothing in the reverse direction.
 void solve_by_face(const Question& question, const AskedMeshes& meshes, Solver& solver,
                    const Observer& observer, Answer& answer) {
-  SolveOptions options = heard_options(question, observer, answer);
+  SolveOptions options = observed_options(question, observer, answer);
   options.tolerance = answer.a_to_b.tolerance;
   options.tolerance_is_absolute = true;
   SolveOptions there = options;
@@ -117,12 +117,12 @@ void add_search(Report& report, const Report& worst) {
   report.times.wall_ms += worst.times.wall_ms;
 }
 
-/// Searches on for the farthest point, to a thousandth of the distance that is known, since that
-/// is for people to read.
+/// Searches on for the farthest point, to a thousandth of the known distance, which is enough for
+/// people.
 void find_worst(const Question& question, std::span<Solver* const> solvers,
                 const AskedMeshes& meshes, const Observer& observer, Answer& answer) {
   answer.max->worst = true;
-  SolveOptions options = heard_options(question, observer, answer);
+  SolveOptions options = observed_options(question, observer, answer);
   options.limit = {};
   options.wave_limit = std::min(options.wave_limit, kWorstWaves);
   options.tolerance = std::max(answer.a_to_b.tolerance, 1e-3 * interval_of(answer).lower);
@@ -150,7 +150,7 @@ void check_sides(const Question& question, const Mesh& a, const Mesh& b) {
 
 void solve(const Question& question, std::span<Solver* const> solvers, const AskedMeshes& meshes,
            const Observer& observer, Answer& answer) {
-  const auto options = [&] { return heard_options(question, observer, answer); };
+  const auto options = [&] { return observed_options(question, observer, answer); };
   if (question.is_by_face()) {
     solve_by_face(question, meshes, *solvers.front(), observer, answer);
   } else if (question.symmetric) {

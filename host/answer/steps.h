@@ -17,7 +17,8 @@
 
 namespace vkh {
 
-/// Hears how a question gets on, on the threads that work, and may end it. Any may be empty.
+/// Hears of a question's progress, on the working threads, and may end it. Any of the functions may
+/// be empty.
 struct Observer {
   std::function<bool()> goes_on = {};                ///< false: end, with a true answer
   std::function<double()> left_s = {};               ///< the seconds left for all of it
@@ -31,7 +32,7 @@ struct Observer {
 };
 
 /// Two meshes that the caller keeps. `prepared`: B on the device of the one solver, or null.
-/// `kept`: for h(a, b) and h(b, a), if steps that follow should find both as the solver has laid
+/// `kept`: for h(a, b) and h(b, a), if later steps should reuse the meshes as the solver has framed
 /// them.
 struct AskedMeshes {
   const Mesh& a;
@@ -58,7 +59,7 @@ struct FitMeshes {
   const PreparedMesh* prepared = nullptr;
 };
 
-/// A mesh and its shape, which a caller keeps for a mesh of many pairs.
+/// A mesh and its shape. A caller keeps both for a mesh of many pairs.
 struct ShapedMesh {
   std::shared_ptr<const ReadMesh> mesh;
   MeshShape shape;
@@ -70,9 +71,9 @@ ShapedMesh shaped(std::shared_ptr<const ReadMesh> mesh);
 Answer unread_answer(const Question& question);
 
 /// Puts A where the question says: in B's unit, where both units are known and differ, and by the
-/// matrix. Call it before take_meshes(); where the question asks for a fit it does nothing, and
-/// fit_a() all. Throws UsageError for a unit that contradicts a file's own, and InputError for a
-/// matrix that cannot be read or is no rotation.
+/// matrix. Call it before begin_answer(); if the question asks for a fit, it does nothing, and
+/// fit_a() does both. Throws UsageError for a unit that contradicts a file's own, and InputError
+/// for a matrix that cannot be read or is no rotation.
 void place_a(const Question& question, Mesh& a, const Mesh& b);
 /// Whether place_a() or fit_a() would change A.
 bool is_placed(const Question& question, const Mesh& a, const Mesh& b);
@@ -83,10 +84,10 @@ void fit_a(const Question& question, Solver& solver, const Observer& observer,
 
 /// Fills in the answer's counts, its unit, its lengths in that unit, and a first upper bound: no
 /// point of either mesh is farther from the other mesh than the joint diagonal and both deltas.
-/// Throws UsageError for units that do not go together and for lengths that cannot be converted to
-/// the files' unit, and InputError where a share is asked of a mesh without area.
-void take_meshes(const Question& question, const ShapedMesh& a, const ShapedMesh& b,
-                 Answer& answer);
+/// Throws UsageError for units that contradict each other and for lengths that cannot be converted
+/// to the files' unit, and InputError if a share is asked of a mesh without area.
+void begin_answer(const Question& question, const ShapedMesh& a, const ShapedMesh& b,
+                  Answer& answer);
 
 /// The ends of a picture's colours, in the files' unit; a 0 has no unit. Throws UsageError that
 /// names --range for ends that are reversed, or cannot be converted.
@@ -102,13 +103,13 @@ SolveOptions run_options(const Question& question);
 /// The options for an interval as narrow as such an answer needs. `known` has its meshes.
 SolveOptions solve_options(const Question& question, const Answer& known);
 
-/// Refuses, with UsageError or InputError, meshes without sides where the question asks for them:
-/// before any work.
+/// Refuses, with UsageError or InputError and before any work, meshes without sides if the question
+/// asks for sides.
 void check_sides(const Question& question, const Mesh& a, const Mesh& b);
 
-/// Solves what is asked of the distance: one direction or both, a part of A, over all solvers, or
-/// face by face. `answer` has its meshes. Throws what Solver throws, and UsageError for what cannot
-/// be asked together.
+/// Encloses the distance that is asked for: one direction or both, a part of A, over all solvers,
+/// or face by face. `answer` has its meshes. Throws what Solver throws, and UsageError for what
+/// cannot be asked together.
 void solve(const Question& question, std::span<Solver* const> solvers, const AskedMeshes& meshes,
            const Observer& observer, Answer& answer);
 

@@ -17,7 +17,7 @@ inline double seconds_since(Clock::time_point start) {
 
 class Stop {
  public:
-  /// `start`: the process's; the time counts from it, reading and pipelines included.
+  /// `start`: of the process. The time counts from it, so it includes reading and pipelines.
   Stop(Clock::time_point start, double seconds) : start_(start), seconds_(seconds) {}
 
   double elapsed_s() const { return seconds_since(start_); }

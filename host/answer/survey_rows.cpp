@@ -27,13 +27,14 @@ std::string enclosure(const Enclosure& e, const std::string& unit) {
   return with_unit(text + "]", unit);
 }
 
-// What a figure probably is, with the digits that matter beside `gap`, or as many as are inside.
+// A figure's probable value, with the digits that matter at a width of `gap`, or as many as it
+// takes to lie in the enclosure.
 std::string likely(const Enclosure& e, double gap) {
   const double value = e.estimate.value_or(e.lower);
   return decimal_inside(value, e.lower, e.upper, digits_that_matter(value, gap));
 }
 
-// A figure: what it probably is, and the interval that it is proven to lie in.
+// A figure: its probable value, and the interval in which it provably lies.
 std::string figure(const Enclosure& e, const std::string& unit) {
   if (!e.estimate || !(e.lower < e.upper)) return enclosure(e, unit);
   return likely(e, e.upper - e.lower) + ", in " + enclosure(e, unit);
@@ -68,7 +69,7 @@ std::string field_text(const SurveyResult& survey, const Answer& answer) {
          " undecided";
 }
 
-// Shares are known to 1e-12, which nobody wants to read: a hundredth of a percent is shown.
+// Shares are known to 1e-12, but a hundredth of a percent is enough for people.
 std::string share_text(const Enclosure& share) {
   const Enclosure percent = in_percent(share);
   constexpr double kShown = 0.01;
@@ -112,7 +113,7 @@ std::string end_text(const SurveyResult& survey) {
          " before all that was asked was met, and all is true as it is";
 }
 
-// Counts of points that are surely, and perhaps, so many: n times a share, rounded outward.
+// The certain and the possible number of points: n times a share, rounded outward.
 std::string counts_text(const Enclosure& share, uint64_t points) {
   const auto n = static_cast<double>(points);
   const double least = std::ceil(std::nextafter(n * share.lower, 0.0));
@@ -122,7 +123,7 @@ std::string counts_text(const Enclosure& share, uint64_t points) {
   return text;
 }
 
-// Says what figures are of, and what they leave out.
+// Says which part of the mesh figures are of, and what they leave out.
 std::string kept_text(const Statistics& s, const std::string& unit) {
   const std::string length = length_in_words({s.max_distance, s.max_distance});
   if (s.kept->upper == 0) return "none: nothing is within " + length;
@@ -206,7 +207,7 @@ class SurveyRows {
   std::vector<TableRow> rows_;
 };
 
-/// Says first what the figures are of.
+/// First says which part of the mesh the figures are of.
 void add_statistics(const Statistics& s, SurveyRows& rows) {
   if (s.kept) {
     rows.add("figures", kept_text(s, rows.unit()));
@@ -249,13 +250,13 @@ namespace {
 
 constexpr double kShownPercent = 0.01;
 
-// Nothing is known of a share that may be none and all.
+// Nothing is known of a share that may be anything from 0 to 1.
 bool is_known(const AnswerFigure& figure) {
   const Enclosure& e = figure.value;
   return figure.power == 0 ? e.lower > 0 || e.upper < 1 : std::isfinite(e.upper);
 }
 
-// Three digits, or those that the interval leaves.
+// Three digits, or fewer if the interval leaves fewer.
 std::string likely_text(const Enclosure& e, double least_gap) {
   return likely(e, std::max(e.upper - e.lower, least_gap));
 }
@@ -292,8 +293,8 @@ std::string distance_text(const Answer& answer, double distance) {
   return with_unit(length_in_words({distance, distance}), answer.unit);
 }
 
-/// The figures that the first line has where none is asked for by name.
-bool is_told_first(const AnswerFigure& figure) {
+/// Whether the first line has the figure if none is asked for by name.
+bool is_default_figure(const AnswerFigure& figure) {
   constexpr std::array<std::string_view, 4> kFirst{"hausdorff", "hd_p", "assd", "chamfer_l1"};
   if (figure.kind == FigureKind::kMetricShare) return figure.name == "f1";
   return std::find(kFirst.begin(), kFirst.end(), figure.key) != kFirst.end();
@@ -311,7 +312,7 @@ std::string metrics_in_words(const Answer& answer) {
   std::string text;
   for (const AnswerFigure& figure : figures_of(answer)) {
     if (figure.kind < FigureKind::kMetric) continue;
-    if (m.figures.empty() ? !is_told_first(figure) : !m.asks_for(asked_name(figure))) continue;
+    if (m.figures.empty() ? !is_default_figure(figure) : !m.asks_for(asked_name(figure))) continue;
     text += (text.empty() ? "" : ", ") + figure.name + " " +
             likely_text(figure, unit_of(answer.unit, figure.power));
     if (figure.kind == FigureKind::kMetricShare)

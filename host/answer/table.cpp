@@ -49,7 +49,8 @@ std::string bounds(double lower, double upper, double gap) {
   return text + "]";
 }
 
-/// The reason of a precision's end: the wider of both surfaces' deltas, or the arithmetic.
+/// The reason why a run ended with kPrecision: the wider of both surfaces' deltas, or the
+/// arithmetic.
 std::string reason(const Answer& answer, Status status) {
   const double delta = std::max(answer.inputs[0].place.delta, answer.inputs[1].place.delta);
   if (status != Status::kPrecision || !(2 * delta > answer.a_to_b.tolerance))
@@ -127,7 +128,7 @@ std::string unit_text(const Answer& answer) {
   return answer.unit.empty() ? "in the files' unit" : answer.unit;
 }
 
-// Writes the length of the request, and its value in the files' unit, which waits for the files.
+// Writes the length as it was asked for, and its value in the files' unit once the files are read.
 std::string length_text(const Answer& answer, const Length& asked, double resolved) {
   const bool is_share = asked.of == Length::Of::kDiagonal;
   if (!are_read(answer))
@@ -261,17 +262,17 @@ void print_part(std::ostream& out, const Answer& answer) {
       printed("%llu of %llu, from 0: h(A,B) is the largest of all parts'",
               static_cast<Count>(answer.part->index), static_cast<Count>(answer.part->count)));
   const double known = answer.a_to_b.known_lower;
-  // The number that was given, to the digits that it was given with: it is no bound of h.
+  // Prints the given number with the digits that it was given with: it is no bound of h.
   if (known > 0) print_row(out, "known", printed("%.9g ", known) + unit_text(answer));
 }
 
-/// Whether the note stands with the sizes, or in the first line.
+/// Whether the note is printed with the sizes, or in the first line.
 bool is_said_first(NoteCode code) {
   return is_odd_pair(code) || code == NoteCode::kOneWay || code == NoteCode::kCoverage ||
          code == NoteCode::kConverted || code == NoteCode::kInsideOut;
 }
 
-/// Prints the boxes' sizes, and what is odd about them.
+/// Prints the boxes' sizes, and notes on them.
 void print_sizes(std::ostream& out, const Answer& answer) {
   if (!answer.inputs[0].box || !answer.inputs[1].box) return;
   const auto sized = [&](const char* name, const Input& input) {

@@ -23,7 +23,7 @@ std::string joined(const std::vector<std::string>& lines) {
 
 std::string milliseconds(double ms) { return number_text(ms, std::chars_format::fixed, 3); }
 
-// No more of A's area has no side.
+// An upper bound of the share of A's area that has no side.
 double unsigned_share(const SignedFigures::Areas& areas) {
   return std::max(add_up(add_up(1, -areas.over.lower), -areas.under.lower), 0.0);
 }
@@ -58,13 +58,13 @@ void add_sides(const Answer& answer, Cells& cells) {
   cells.push_back(has_areas ? csv_bound(unsigned_share(*sides->areas), Rounding::kUp) : "");
 }
 
-// Each figure has three columns: what it probably is, and its ends.
+// Each figure has three columns: its probable value, and both ends.
 void add_names(const std::string& name, std::vector<std::string>& cells) {
   for (const char* end : {"", "_lower", "_upper"}) cells.push_back(name + end);
 }
 
-/// Calls `condition` with each column that tells what the figures after it are of, the percentile
-/// or a distance by its number from 1, and `figure` with each figure's name.
+/// Calls `condition` with each column that says to which percentile or distance the figures after
+/// it belong (distances are numbered from 1), and `figure` with each figure's name.
 template <class Condition, class Figure>
 void for_each_metric(const CsvColumns& with, const Condition& condition, const Figure& figure) {
   condition("percentile", 0);
@@ -91,7 +91,7 @@ std::string condition_text(const Metrics& m, size_t number) {
   return number <= m.within.size() ? shortest_decimal(m.within[number - 1].distance) : "";
 }
 
-/// An answer without figures of normals, or of so many distances, has nothing in those columns.
+/// An answer without figures of normals, or with fewer distances, has empty cells in those columns.
 void add_metrics_cells(const Answer& answer, const CsvColumns& with, Cells& cells) {
   const auto figures = columns_of(answer);
   for_each_metric(

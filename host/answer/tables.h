@@ -8,9 +8,9 @@
 
 namespace vkh {
 
-/// The columns of a CSV besides those that each has.
+/// The optional columns of a CSV.
 struct CsvColumns {
-  bool run = false;      ///< times, which two runs do not have in common
+  bool run = false;      ///< times, which differ from run to run
   bool sides = false;    ///< signed figures: some result has them
   bool metrics = false;  ///< some result has them
   bool normals = false;  ///< some result's metrics have figures of normals

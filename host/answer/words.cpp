@@ -89,13 +89,14 @@ std::string limits_in_words(const Answer& answer) {
          " under it";
 }
 
-/// A length that is known: four digits, or as many as it takes to lie in the enclosure.
+/// A known length: four digits, or as many as it takes to lie in the enclosure.
 std::string known_length(const Answer& answer, const Enclosure& e) {
   constexpr int kDigits = 4;
   return with_unit(decimal_inside(e.lower, e.lower, e.upper, kDigits), answer.unit);
 }
 
-/// A distance beyond a limit, as a FAIL begins: the text is never the limit itself, or under it.
+/// A distance beyond a limit, which a FAIL begins with: the printed number is always larger than
+/// the limit.
 std::string beyond_in_words(const Answer& answer, const Enclosure& e, const Limit& limit) {
   if (is_farthest_known(e.lower, e.upper)) return "FAIL  " + known_length(answer, e);
   const double margin = std::min(e.lower - limit.beyond, e.upper - e.lower);
@@ -116,14 +117,13 @@ std::string failure_in_words(const Answer& answer, bool back) {
   return text + ", limit of its face " + with_unit(length_in_words(limit), answer.unit);
 }
 
-// Names the unit of the count: a polygon's triangles are more than it.
+// Says whether faces or triangles are counted: a polygon has several triangles.
 std::string faces_in_words(const FaceLimits& faces, const Input& of) {
   return std::to_string(faces.within) + " of " + std::to_string(faces.faces) +
          (of.counts.polygons > 0 ? " triangles" : " faces");
 }
 
-// Rounds a percentage outward, with so many digits that it is not printed on the other side of
-// `asked`.
+// Rounds a percentage outward, with enough digits not to be printed on the other side of `asked`.
 std::string percent(double share, double asked, Rounding rounding) {
   double percent = 100 * share;
   if (share > 0 && share < 1)
@@ -135,14 +135,14 @@ std::string percent(double share, double asked, Rounding rounding) {
          " %";
 }
 
-/// Says what would decide a verdict that a survey left open: more of what ended it.
+/// Says what would decide a verdict that a survey left open: more of the budget that ended it.
 std::string survey_hint(const Answer& answer, bool back) {
   const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
   if (!survey) return hint(answer, (back ? *answer.b_to_a : answer.a_to_b).status);
   return end_words(survey->ended).hint;
 }
 
-/// "at least 99.5 % of A's area is within 0.1 mm of B": as much as the verdict on that mesh says.
+/// "at least 99.5 % of A's area is within 0.1 mm of B": no more than the verdict on that mesh says.
 std::string share_in_words(const Answer& answer, bool back) {
   const double asked = *answer.max->area;
   const Enclosure share = share_within(answer, back);
@@ -158,8 +158,8 @@ std::string share_in_words(const Answer& answer, bool back) {
          limit_text(answer, answer.max->length) + " of " + (back ? "A" : "B");
 }
 
-/// Describes the mesh that decides, and then the other one: the former is not within, if one is
-/// not.
+/// Describes the deciding mesh, and then the other one. If one of them is not within, that one
+/// decides.
 std::string area_in_words(const Answer& answer) {
   const Verdict verdict = verdict_of(answer);
   const bool back = verdict_of(answer, false) != verdict;
@@ -226,7 +226,7 @@ std::string sides_in_words(const Answer& answer) {
 }
 
 /// Says what would decide a limit that lies in the interval. A limit that is a share of a diagonal
-/// is only known as well as that: no tolerance decides what lies within its ends.
+/// is only known as well as the diagonal: no tolerance decides what lies within its ends.
 std::string limit_hint(const Answer& answer, const CertifiedInterval& whole) {
   const Limit& limit = answer.max->limit;
   const Diagonal of_a = diagonal_of_a(answer);
@@ -275,8 +275,7 @@ const char* one_way_text(const Answer& answer) {
                            : "A to B only; --symmetric also finds what A lacks of B";
 }
 
-/// Whether the first line warns of it. Sides that are the wrong way round matter to limits of
-/// sides.
+/// Whether the first line warns of it. A surface that is inside out matters to limits of sides.
 bool is_in_first_line(const Answer& answer, NoteCode code) {
   return is_odd_pair(code) || (code == NoteCode::kInsideOut && answer.max && answer.max->sides);
 }
@@ -303,7 +302,8 @@ std::string oddities(const Answer& answer) {
   return text;
 }
 
-/// Warns within the answer: a PASS says first that the pair is odd, since few read on.
+/// Puts the warning into the answer: a PASS begins with it if the pair is odd, since few people
+/// read on.
 std::string warned(const Answer& answer, std::string text) {
   const std::string odd = oddities(answer);
   if (odd.empty()) return text;
@@ -313,7 +313,7 @@ std::string warned(const Answer& answer, std::string text) {
   return text + ". Check the inputs: " + odd;
 }
 
-/// Says of a verdict or a distance that A was moved before it.
+/// Adds to a verdict or a distance that A was moved by a fit.
 std::string after_fit(const Answer& answer, std::string text) {
   if (!answer.placed || !answer.placed->fit) return text;
   const size_t verdict = answer.max ? text.find("  ") : std::string::npos;
@@ -347,7 +347,7 @@ const SignedFigures* sides_of(const Answer& answer, bool back) {
 
 namespace {
 
-// The interval alone decides where both limits agree, whatever the sides are.
+// Where both limits agree, the interval alone decides, and sides do not matter.
 Verdict verdict_of_sides(const Answer& answer, const Report& r, const SignedFigures* found) {
   const SidedLimits& limits = answer.max->sides->limits;
   if (r.upper <= limits.smaller().within) return Verdict::kWithin;

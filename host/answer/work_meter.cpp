@@ -50,7 +50,7 @@ void WorkMeter::narrow(size_t direction, const Interval& interval) {
   done_.upper = std::min(done_.upper, std::max(known_[0].upper, known_[1].upper));
 }
 
-// The progress of limits by face is of some of A's faces, and bounds none of the others.
+// With limits by face the progress is of some of A's faces, and does not bound the others.
 void WorkMeter::hear(const Progress& progress) {
   if (is_by_face_) return;
   const size_t direction = progress.back && directions_ == 2 ? 1 : 0;

@@ -28,7 +28,7 @@ void check_simplify(const Request& asked) {
   check_name_ends("--certificate", asked.outputs.certificate, ".vhc");
 }
 
-/// Tells a list, two folders, and meshes against one apart.
+/// Decides whether the files are a list, two folders, or meshes against one B.
 void check_source(const Request& asked) {
   const ManyRequest& many = asked.many;
   if (many.against.empty() && many.files.size() > 2)
@@ -37,10 +37,10 @@ void check_source(const Request& asked) {
     throw UsageError("--allow-unpaired: is of two folders: batch FOLDER_A FOLDER_B");
 }
 
-/// Asks for what pictures show.
+/// Adds to the question what pictures show.
 void ask_for_pictures(Request& asked) {
   const Outputs& outputs = asked.outputs;
-  const PictureStyle style = style_of(outputs.look);  // throws for a look that there is not
+  const PictureStyle style = style_of(outputs.look);  // throws for an invalid look
   if (outputs.image || outputs.points || outputs.report || outputs.figures)
     ask_for(style, asked.question);
 }

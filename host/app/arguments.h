@@ -11,7 +11,7 @@ namespace vkh {
 using Words = std::vector<std::string>;
 
 struct CommandLine {
-  std::string help;  ///< a text to print, and nothing else to do; empty: what is asked
+  std::string help;  ///< a text to print, without further work; empty: there is a request
   Request asked;
 };
 

@@ -33,7 +33,7 @@ MeshPair self_check_pair() {
       make_mesh("walls", std::move(walls), {{0, 1, 2}, {3, 4, 5}})};
 }
 
-/// The doctor's output, and the JSON of the same, or null.
+/// The doctor's output, and the same as JSON, or null.
 struct Findings {
   std::ostream& out;
   Json* json;

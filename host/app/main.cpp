@@ -60,7 +60,7 @@ void check_verified(const Answer& answer) {
   }
 }
 
-/// A question on its way, with the device, which is destroyed only after the answer is printed.
+/// A running question, with its device, which is destroyed only after the answer is printed.
 struct Asked {
   Asked(const Question& asked, const Stop& until)
       : question(asked),
@@ -75,11 +75,12 @@ struct Asked {
   Asking asking;
 };
 
-/// Returns true once all work is done; false when the caller is to wait no longer.
+/// Returns true once all work is done; false if the caller should not wait any longer.
 bool is_waited_for(const Asked& at) {
   constexpr std::chrono::milliseconds kLook(20);
-  constexpr double kGraceful = 0.06;  // a run on a GPU ends by itself in it, with more to report
-  constexpr double kToAddUp = 3;      // a survey has files to write that the user asked for
+  constexpr double kGraceful =
+      0.06;                       // within it a run on a GPU ends by itself, with more to report
+  constexpr double kToAddUp = 3;  // a survey has files to write that the user asked for
   const Stop& stop = at.stop;
   // A certificate proves the final result of the search, so that is waited for too.
   const auto patience = [&] {
@@ -112,9 +113,9 @@ struct Answered {
   std::shared_ptr<const ReadMesh> a, b;
 };
 
-/// When its stop is asked for, the answer is what is known: its interval is true, if only
-/// [0, infinity).
-void take_answer(Answered& done) {
+/// If the question was stopped, the answer is what is known so far: its interval is true, but may
+/// be [0, infinity).
+void fetch_answer(Answered& done) {
   Asked& at = *done.asked;
   if (!is_waited_for(at)) {
     at.asking.leave();
@@ -139,7 +140,7 @@ Answered answer_for(const Question& question, const Stop& stop, Destinations& de
   try {
     Answered done;
     done.asked = std::make_unique<Asked>(question, stop);
-    take_answer(done);
+    fetch_answer(done);
     done.answer.waits.total = stop.elapsed_s() * 1000;
     return done;
   } catch (const Error& error) {
@@ -186,7 +187,7 @@ auto or_tell(const Words& words, const F& work) {
   try {
     return work();
   } catch (const UsageError& error) {
-    tell_misuse(words, error);
+    report_misuse(words, error);
     throw;
   }
 }
@@ -208,7 +209,7 @@ int printed(ExitCode code) {
   return code;
 }
 
-/// Examines, and writes what was found where JSON was asked for, even if the doctor could not end.
+/// Examines the devices, and writes JSON if asked for, even if the doctor could not finish.
 bool examine_and_write(const Request& asked) {
   const Outputs& outputs = asked.outputs;
   const std::string& device = asked.question.device;

@@ -90,7 +90,7 @@ void check_outputs(const Outputs& asked) {
 }
 
 /// Names the shard's files without a partner. Unless they are allowed, each is a failure.
-void take_unpaired(const ManyRequest& asked, PairList& list, BatchJob& batch) {
+void add_unpaired(const ManyRequest& asked, PairList& list, BatchJob& batch) {
   for (Entry& entry : list.unpaired) {
     if (!is_in(asked.shard, entry.id)) continue;
     warn(entry.one_file() + ": " + entry.missing);
@@ -120,13 +120,14 @@ BatchJob batch_of(const Request& request, PairList& list) {
   const Question& question = request.question;
   BatchJob batch;
   batch.asked = request;
-  batch.asked.many = {};  // each pair has a copy of the request, and no need of the others' names
-  batch.asked.question.max_distance.reset();  // it is of what is drawn
+  batch.asked
+      .many = {};  // each pair has a copy of the request, and does not need the other pairs' names
+  batch.asked.question.max_distance.reset();  // it only concerns pictures
   batch.shared = shared_files(list.entries);
   for (Entry& entry : list.entries) {
     if (is_in(asked.shard, entry.id)) batch.entries.push_back(std::move(entry));
   }
-  take_unpaired(asked, list, batch);
+  add_unpaired(asked, list, batch);
   batch.results = request.outputs.out;
   batch.resumes = asked.resumes;
   batch.fails_fast = asked.fails_fast;
@@ -173,7 +174,7 @@ ExitCode write_indexes(const BatchJob& batch) {
 namespace {
 
 /// Tells GitHub Actions about the pairs of the batch.
-ExitCode tell_github(const BatchJob& batch) {
+ExitCode report_to_github(const BatchJob& batch) {
   const GithubTexts texts = github_texts(batch);
   std::cout << texts.annotations << std::flush;
   try {
@@ -206,7 +207,7 @@ ExitCode run_asked_batch(const Request& request) {
     tables.write(results, true);
   }
   if (batch.folders) code = worse(code, write_indexes(batch));
-  return outputs.github ? worse(code, tell_github(batch)) : code;
+  return outputs.github ? worse(code, report_to_github(batch)) : code;
 }
 
 }  // namespace

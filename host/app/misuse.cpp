@@ -51,8 +51,8 @@ std::string hint_without_blank(const std::string& option, const std::string& giv
   return option + " '" + given + "': write " + meant + ", without a blank";
 }
 
-/// Returns what to write for "--max 0.1 mm" and "--max=0.1 mm"; nothing if no number and unit are
-/// so apart.
+/// Returns what to write for "--max 0.1 mm" and "--max=0.1 mm"; nothing if no blank separates a
+/// number from its unit.
 std::string blank_hint(const Words& words) {
   for (size_t i = 1; i < words.size(); ++i) {
     const std::string& before = words[i - 1];
@@ -69,7 +69,7 @@ std::string blank_hint(const Words& words) {
   return "";
 }
 
-/// Returns where the options of the command, or of the program, are told.
+/// Returns how to get the help for the command, or for the program.
 std::string see_help(const CLI::App& command) {
   const bool is_program = command.get_parent() == nullptr;
   return " (see vkhausdorff " + (is_program ? "--help)" : command.get_name() + " --help-all)");
@@ -85,7 +85,7 @@ constexpr std::array<GoneOption, 2> kGoneOptions{
       "leave it out: pictures show distances by cells, and --field OUT.ply has the "
       "bounds of faces"}}};
 
-/// Returns what to do in place of an option that is gone; nothing of any other.
+/// Returns the replacement for a removed option; nothing for any other.
 std::string gone_hint(const std::string& name) {
   for (const GoneOption& gone : kGoneOptions) {
     if (gone.name == name) return name + " is gone: " + std::string(gone.instead);

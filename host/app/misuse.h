@@ -1,4 +1,4 @@
-// Messages about a wrong command line, with what it may have meant.
+// Messages about a wrong command line, with a guess at what was meant.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ class ParseError;
 
 namespace vkh {
 
-/// Words an error of the parser anew: with the option or the command that a misspelt one may mean.
+/// Rewrites an error of the parser: with the option or the command that a misspelt one may mean.
 std::string usage_message(const CLI::App& program, const CLI::ParseError& error,
                           const Words& words);
 

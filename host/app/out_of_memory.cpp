@@ -10,7 +10,7 @@
 namespace vkh {
 namespace {
 
-int g_code = 0;  // a handler can reach nothing but a global
+int g_code = 0;  // global, since a handler can reach nothing else
 
 [[noreturn]] void on_terminate() {
   try {

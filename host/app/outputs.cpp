@@ -100,7 +100,8 @@ std::string Destinations::write(const Answer& answer) {
   if (junit_) attempt([&] { junit_->write(to_junit(answer)); });
   if (transform_) attempt([&] { transform_->write(placed_text(answer)); });
   if (outputs_.github) attempt([&] { append_github_summary(github_summary(answer)); });
-  // GitHub's runner reads commands from both streams; stdout has no room beside one JSON object.
+  // GitHub's runner reads commands from both streams. With --json, stdout holds one object and
+  // nothing else.
   if (outputs_.github) (outputs_.json ? std::cerr : std::cout) << github_annotation(answer);
   if (outputs_.json) {
     std::cout << to_json(answer) << '\n';
@@ -132,7 +133,7 @@ void append_github_summary(const std::string& text) {
         {.option = "$GITHUB_STEP_SUMMARY", .file = file, .problem = "cannot be written"});
 }
 
-void tell_misuse(const Words& words, const UsageError& error) {
+void report_misuse(const Words& words, const UsageError& error) {
   const bool is_batch = !words.empty() && words[0] == "batch";
   if (is_batch && std::find(words.begin(), words.end(), "--github") != words.end())
     std::cout << github_annotation(failure_of(error)) << std::flush;

@@ -44,6 +44,6 @@ void append_github_summary(const std::string& text);
 /// Reports a usage error in the formats that the command line asks for: JSON or JUnit (commands
 /// with one answer), or an annotation (batch). If an output file is also named by another word,
 /// writes neither JSON nor JUnit.
-void tell_misuse(const Words& words, const UsageError& error);
+void report_misuse(const Words& words, const UsageError& error);
 
 }  // namespace vkh

@@ -24,8 +24,8 @@ inline constexpr std::array kGroupOperations{
     "subgroupInclusiveAdd", "subgroupShuffle",        "subgroupMin",
     "subgroupMax"};
 
-/// The views of subgroups at one Flow: how many, how many of them of a part of the subgroup, and in
-/// how many each of kGroupOperations was wrong.
+/// The views of subgroups at one Flow: their number, the number of partial ones, and for each of
+/// kGroupOperations the number of views in which it was wrong.
 struct GroupTally {
   uint64_t views = 0, partial = 0;
   std::array<uint64_t, kGroupOperations.size()> wrong{};
@@ -43,7 +43,7 @@ struct SelfTestResult {
   std::array<GroupTally, kFlowNames.size()> groups;  ///< by Flow
 
   uint64_t group_views() const;    ///< times that an invocation tried every subgroup operation
-  uint64_t partial_views() const;  ///< those of a part of its subgroup
+  uint64_t partial_views() const;  ///< the ones with only a part of its subgroup
 };
 
 /// `count` questions, a multiple of gpu::kGroupSize, on which arithmetic goes wrong: mantissas of

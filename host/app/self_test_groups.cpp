@@ -48,8 +48,8 @@ class Judge {
     }
   }
 
-  /// Returns the operations that are wrong, a bit for each of kGroupOperations. A ballot that is
-  /// wrong tells nothing about the others.
+  /// Returns the operations that are wrong, a bit for each of kGroupOperations. If the ballot is
+  /// wrong, the others cannot be judged.
   uint32_t faults(uint32_t item, const Group& seen, Flow flow) const {
     constexpr uint32_t kBallot = 1;
     Expected e;
@@ -66,7 +66,7 @@ class Judge {
   }
 
  private:
-  /// Whether both can be at the place in the code where `item` took its last view.
+  /// Whether both items can be at the place in the code of `item`'s last view.
   bool may_be_beside(uint32_t item, uint32_t other, Flow flow) const {
     const Trial &q = asked_[item], &o = asked_[other];
     if (flow == Flow::kBranch) return (q.a > q.b) == (o.a > o.b);

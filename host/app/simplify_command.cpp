@@ -66,19 +66,19 @@ class SimplifyCommand {
   /// Throws UsageError for files that cannot be written.
   void check_places() { places_ = places(); }
   ExitCode run();
-  /// Writes the error in place of the answer, where JSON was asked for.
-  void tell(const Failure& failure) const;
+  /// Writes the error in place of the answer, if JSON was asked for.
+  void write_failure(const Failure& failure) const;
 
  private:
   SimplifyPlaces places() const;
   void read();
-  void take_limit();
+  void resolve_limit();
   SimplifyOptions options();
   std::vector<Simplified> search();
   Written write(const Mesh& mesh, const OutputFile& place, const std::string& path);
   void prove_it(const Written& written, const OutputFile& place);
   void remove_stale(size_t written);
-  void tell();
+  void write_answer();
 
   const Question& question_;
   const SimplifyRequest& asked_;
@@ -113,7 +113,7 @@ SimplifyPlaces SimplifyCommand::places() const {
   return places;
 }
 
-/// Opens the device beside reading.
+/// Opens the device while the file is read.
 void SimplifyCommand::read() {
   const bool is_share = question_.max->of == Length::Of::kDiagonal;
   const double share = is_share ? question_.max->number : 1;
@@ -140,7 +140,7 @@ void SimplifyCommand::read() {
   answer_.device = session_.solver->description();
 }
 
-void SimplifyCommand::take_limit() {
+void SimplifyCommand::resolve_limit() {
   if (!question_.unit.empty() && !a_.unit.empty() && question_.unit != a_.unit)
     throw UsageError("--unit " + question_.unit + ": " + a_.name + " is in " + a_.unit);
   answer_.unit = a_.unit.empty() ? question_.unit : a_.unit;
@@ -197,7 +197,8 @@ Written SimplifyCommand::write(const Mesh& mesh, const OutputFile& place, const 
       written.file.sha256 = sha256_of(path_of(file), [] { return !is_interrupted(); });
   };
   place.write(to_mesh_file(mesh, format), measure);
-  if (written.mesh.faces.empty()) measure(path);  // it was written over: its folder is not ours
+  if (written.mesh.faces.empty())
+    measure(path);  // the file was overwritten in place: its folder is not writable
   written.file.counts = written.mesh.counts;
   return written;
 }
@@ -216,8 +217,8 @@ void SimplifyCommand::prove_it(const Written& written, const OutputFile& place) 
   answer_.certificate = outputs_.certificate.value_or("");
 }
 
-/// Removes the files of an earlier chain that this one was to write over and has no level for: they
-/// would be taken for its own.
+/// Removes the files of an earlier chain beyond this chain's last level: they would be taken for
+/// its own.
 void SimplifyCommand::remove_stale(size_t written) {
   for (size_t i = written; i < places_.paths.size(); ++i) {
     const std::string& path = places_.paths[i];
@@ -231,7 +232,7 @@ void SimplifyCommand::remove_stale(size_t written) {
   }
 }
 
-void SimplifyCommand::tell() {
+void SimplifyCommand::write_answer() {
   line_.end();
   answer_.waits.total = stop_.elapsed_s() * 1000;
   if (outputs_.json) {
@@ -242,7 +243,7 @@ void SimplifyCommand::tell() {
   if (places_.json) places_.json->write(to_json(answer_) + '\n');
 }
 
-void SimplifyCommand::tell(const Failure& failure) const {
+void SimplifyCommand::write_failure(const Failure& failure) const {
   const std::string json = to_simplify_json(failure) + '\n';
   if (outputs_.json) std::cout << json << std::flush;
   try {
@@ -272,7 +273,7 @@ std::vector<Simplified> SimplifyCommand::search() {
 ExitCode SimplifyCommand::run() {
   answer_.words = question_.words;
   read();
-  take_limit();
+  resolve_limit();
   answer_.is_chain = asked_.levels > 0;
   answer_.levels = asked_.levels;
   const std::vector<Simplified> found = search();
@@ -282,7 +283,7 @@ ExitCode SimplifyCommand::run() {
     if (places_.certificate) prove_it(written, *places_.certificate);
   }
   if (!found.empty()) remove_stale(found.size());
-  tell();
+  write_answer();
   return found.empty() ? kExitNotClosed : kExitClosed;
 }
 
@@ -293,13 +294,13 @@ ExitCode run_simplify_command(const Request& asked, const Stop& stop) {
   try {
     command.check_places();
   } catch (const UsageError& error) {
-    tell_misuse(asked.question.words, error);
+    report_misuse(asked.question.words, error);
     throw;
   }
   try {
     return command.run();
   } catch (const Error& error) {
-    command.tell(failure_of(error));
+    command.write_failure(failure_of(error));
     throw;
   }
 }

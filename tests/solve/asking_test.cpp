@@ -30,7 +30,7 @@ struct OnDevice {
 /// The same by the steps themselves.
 Answer by_steps(OnDevice& on, const Question& question) {
   Answer answer = unread_answer(question);
-  take_meshes(question, shaped(on.a), shaped(on.b), answer);
+  begin_answer(question, shaped(on.a), shaped(on.b), answer);
   Solver* const solvers[] = {&on.solver};
   solve(question, solvers, {*on.a, *on.b}, {}, answer);
   finish(question, on.solver, {*on.a, *on.b}, {}, answer);
