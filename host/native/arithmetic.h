@@ -64,8 +64,8 @@ inline vec3 min(const vec3& a, const vec3& b) {
 }
 inline double sqrt(double x) { return std::sqrt(x); }
 
-// The text takes the bits of a float where it steers by a low bit or scales by an exponent. Doubles
-// do that otherwise, so these have no definition: what uses them does not link.
+// The GLSL uses the bits of a float to steer by a low bit or to scale by an exponent. Doubles do
+// both in other ways, so these functions have no definition: a use does not link.
 uint floatBitsToUint(double x);
 double uintBitsToFloat(uint bits);
 

@@ -1,5 +1,5 @@
-// Whether this thread computes as host/native's bounds rest on: IEEE 754, each operation rounded by
-// itself to nearest, and nothing flushed to zero.
+// Checks that this thread computes as host/native's bounds assume: IEEE 754, each operation rounded
+// to nearest, and nothing flushed to zero.
 #pragma once
 
 #include <string>

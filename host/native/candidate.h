@@ -1,4 +1,4 @@
-// What is open, and what a level does to it.
+// Open parts of A, and the results of a level.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ struct Split {
 /// The bound by which a candidate was closed.
 enum Close : uint8_t { kByExact, kByU1, kByU2, kByHa, kByU3, kByRisen, kByPrecision, kCloses };
 
-/// What a piece of a level's work leaves; pieces are joined in their order.
+/// The results of a piece of a level's work; pieces are joined in their order.
 struct Gain {
   Sample best = {};
   double largest_closed = 0;

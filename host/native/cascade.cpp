@@ -12,15 +12,15 @@ bool has_corner(const Corners& t, const vec3& p) {
 
 Family::Family(const Problem& problem, const Face& face, uint32_t centre)
     : problem_(problem), face_(face) {
-  if (centre != kNone) know(centre);
+  if (centre != kNone) add_known(centre);
 }
 
 void Family::add_point(const uvec2& at, uint32_t nearest) {
   point_[points_] = two(local_corner(face_, at));
-  known_of_[points_++] = static_cast<uint32_t>(know(nearest));
+  known_of_[points_++] = static_cast<uint32_t>(add_known(nearest));
 }
 
-size_t Family::know(uint32_t place) {
+size_t Family::add_known(uint32_t place) {
   for (size_t k = 0; k < count_; ++k) {
     if (known_[k].place == place) return k;
   }
@@ -67,7 +67,7 @@ bool Family::is_beside(size_t i, size_t j, uint32_t point) const {
   return s.distance[point] <= r.distance[point] ? in_s && !in_r : in_r && !in_s;
 }
 
-// How far corners are from the cut of u3: as from_cut of shaders/math/bounds.h, which has the
+// How far corners are from the cut of u3: like from_cut of shaders/math/bounds.h, which has the
 // reason, with flags in place of the last bits of floats. It steers.
 vec3 Family::sides(size_t i, size_t j, const Child& child) const {
   std::array<double, 3> difference, between;
@@ -101,7 +101,7 @@ void Family::narrow(double bound, Close by, Verdict& v) const {
   if (kept < v.upper) v = {kept, by, v.centre};
 }
 
-// Takes the triangle at a place of the order in: alone, and with each one before it.
+// Adds the bounds of the triangle at a place of the order: alone, and with each one before it.
 void Family::narrow_by(size_t n, Trial& trial, Verdict& v) {
   const size_t k = order_[n];
   const vec3 d = distances(k, trial.child);
@@ -138,7 +138,7 @@ Verdict Family::bound(const Child& child, double upper, double threshold, Gain& 
   }
   v.centre = ask_centre(child, trial.best, gain);
   const size_t shared = count_;
-  if (know(v.centre) == shared) {
+  if (add_known(v.centre) == shared) {
     order_[shared] = shared;
     narrow_by(shared, trial, v);
   }

@@ -15,11 +15,11 @@ struct Child {
 struct Verdict {
   double upper;
   Close by;
-  uint32_t centre;  ///< the triangle nearest to the child's centroid; kNone: nobody asked
+  uint32_t centre;  ///< the triangle nearest to the child's centroid; kNone: not queried
 };
 
 /// Points of one face of A, the triangles of B that are known to be near them, and the distances
-/// between, which children share: each is measured when it is first needed.
+/// between them, which children share. Each distance is measured when it is first needed.
 class Family {
  public:
   Family(const Problem& problem, const Face& face, uint32_t centre);
@@ -51,10 +51,10 @@ class Family {
     double threshold;
     vec3 own{1e30, 1e30, 1e30};  ///< its corners' distances, each from the nearest triangle so far
     double ha = 1e30;
-    size_t best = 0;  ///< whose ha that is
+    size_t best = 0;  ///< the number of the triangle that gave `ha`
   };
 
-  size_t know(uint32_t place);
+  size_t add_known(uint32_t place);
   Known& measure(size_t k, const Child& child);
   vec3 distances(size_t k, const Child& child);
   Patch patch(const Child& child) const;

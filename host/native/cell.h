@@ -1,5 +1,5 @@
 // The bounds of a cell, shaders/report/cell.h and what it includes, with double for float as in
-// host/native/math.h; and which boxes of B they rest on. A cell's corners have 20 bits there and
+// host/native/math.h; and the boxes of B that they rest on. A cell's corners have 20 bits there and
 // here: shaders/math/bary.h has its positions.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace vkh::native {
 
-/// No two points are so far apart, and its square is a float.
+/// A length larger than all distances, whose square is a float.
 inline constexpr double kFarthest = 1e15;
 
 /// Boxes at more than this distance, squared, hold nothing that is closest anywhere on T, which is

@@ -15,8 +15,8 @@ uint32_t nearest_place(const CellView& v, uint32_t start) {
   return v.tree.nearest(v.cell.origin.hi, from).place;
 }
 
-/// Goes over the triangles that may be closest somewhere on a cell, and notes those that are beyond
-/// none.
+/// Examines the triangles that may be closest somewhere on a cell, and notes the ones that are not
+/// beyond another.
 class Gathering {
  public:
   Gathering(const CellView& v, uint32_t nearest)
@@ -25,7 +25,7 @@ class Gathering {
     of_corners_.fill(g_.corners);
   }
 
-  // All of them, or some, where boxes stand for the rest.
+  // Examines all of them, or some, and lets boxes stand for the rest.
   void look_around() {
     Walk walk(v_.tree, v_.cell.origin.hi);
     float reach = cell_reach(g_.highest, v_.cell);
@@ -41,8 +41,8 @@ class Gathering {
     near_ = {};
   }
 
-  // As gathered() of the text, which says neither whether it leaves S out nor S's distances, and
-  // which measures the first triangle once more.
+  // Does what gathered() of cell.h does. That function neither returns whether it leaves S out, nor
+  // S's distances, and it measures the first triangle again.
   void look_at(uint32_t triangle) {
     const Surface s = v_.surface(triangle);
     const Minorant m = minorant_of(g_, v_.cell, s);

@@ -29,16 +29,16 @@ struct Nearby {
   }
 };
 
-/// The normals of A's faces, and then of B's, and how they are compared.
+/// The normals of A's faces, and then of B's, and the parameters of their comparison.
 struct NormalsGiven {
   std::span<const gpu::FaceNormal> normals;
   gpu::SurveyNormalsPush push;
 };
 
-/// A pair in its frame, of whose A cells can be bounded. Threads may share it.
+/// A pair in its frame, for bounding cells of A. Threads may share it.
 class PlacedPair {
  public:
-  /// Both outlive it, and are meshes (check_mesh).
+  /// Both outlive it, and are valid (check_mesh).
   PlacedPair(const Mesh& a, const Mesh& b);
   ~PlacedPair();
 
@@ -49,7 +49,7 @@ class PlacedPair {
   /// A vertex of A in the frame, and its rest, as floats. It steers.
   gpu::Vertex vertex_of_a(uint32_t number) const;
   /// Bounds a cell, in the frame. `triangle` and `start` are places in this pair's own order of B.
-  /// `near`: what is known of the cell, and then what was found.
+  /// `near`: the triangles known to be near, which the call replaces by the ones found.
   gpu::CellBounds bounds(const gpu::Cell& cell, Nearby& near) const;
   /// Finds the class of a cell with these bounds, as survey_sides.comp does. `face_kinds`: of B's
   /// faces.

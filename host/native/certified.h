@@ -48,7 +48,7 @@ inline double ratio(double a, double b) {
   return choose(b > kSmallSquare, quotient, 0.0);
 }
 
-/// Above x and below it by more than two roundings of x, whatever its sign.
+/// Above x and below it by more than two roundings of x, for x of either sign.
 inline double raised(double x) { return x + (4.0 * kUlp * abs(x) + kTiny); }
 inline double lowered(double x) { return x - (4.0 * kUlp * abs(x) + kTiny); }
 

@@ -25,8 +25,8 @@ View view_of_point(const Two3& p) {
   return v;
 }
 
-/// <= the distance of the point from all triangles: those that the walk comes by, each separated
-/// by a plane, and the boxes that it leaves out.
+/// <= the distance of the point from all triangles: the triangles that the walk visits, each
+/// separated by a plane, and the boxes that it leaves out.
 double distance_down(const FaceTree& tree, const Two3& p, float reach2) {
   const View view = view_of_point(p);
   Walk walk(tree, p.hi);
@@ -53,7 +53,8 @@ PlacedMesh::~PlacedMesh() = default;
 gpu::ClosestFace PlacedMesh::closest(const gpu::Vertex& point) const {
   const Two3 p = position_of(point);
   const Nearest nearest = tree_->nearest(p.hi, {});
-  // A little more than the nearest one's, so that the boxes that are left out do not decide.
+  // A little more than the nearest triangle's distance, so that the boxes that are left out do not
+  // decide.
   const float reach2 = float_above(nearest.distance2 * (1 + 0x1p-16));
   const double lower = distance_down(*tree_, p, reach2);
   const float base = nearest_float(lower);

@@ -19,8 +19,8 @@ class PlacedMesh {
 
   /// How far its farthest vertex may be from its exact place, in the frame.
   double displacement() const { return displacement_; }
-  /// The face that is closest to a point of the frame, and a lower bound of its distance, both as
-  /// the device's search tells them; `upper_above` tells nothing.
+  /// The face that is closest to a point of the frame, and a lower bound of its distance, both in
+  /// the form of the device's search; `upper_above` is unused.
   gpu::ClosestFace closest(const gpu::Vertex& point) const;
 
  private:

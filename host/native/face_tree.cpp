@@ -97,7 +97,7 @@ size_t widest_axis(std::span<const Item> items) {
   return y >= z ? 1 : 2;
 }
 
-// Halves a range along its widest axis, so that items left of the result have the smaller middles.
+// Halves a range along its widest axis: items before the result have the smaller middles.
 template <class Item, class Range>
 uint32_t halved(std::vector<Item>& items, Range range) {
   const uint32_t middle = range.begin + (range.end - range.begin) / 2;
@@ -129,7 +129,7 @@ uint32_t FaceTree::build(std::vector<Item>& items, Range range) {
 
 void FaceTree::set_child(std::vector<Item>& items, uint32_t node, uint32_t lane, Range range) {
   constexpr float kFar = std::numeric_limits<float>::max();
-  Box box{{kFar, kFar, kFar}, {kFar, kFar, kFar}};  // an empty one is out of reach
+  Box box{{kFar, kFar, kFar}, {kFar, kFar, kFar}};  // an empty box is out of reach
   const uint32_t count = range.end - range.begin;
   if (count > 0) box = items[range.begin].box;
   for (uint32_t i = range.begin; i < range.end; ++i) {
@@ -154,7 +154,7 @@ Walk::Walk(const FaceTree& tree, const vec3& p) : tree_(tree), point_(p) {
   waiting_[count_++] = {0, 0};
 }
 
-// Puts those of a node's children that are in reach on the stack, the nearest last.
+// Pushes a node's children that are in reach onto the stack, the nearest last.
 void Walk::open(uint32_t node, float reach2) {
   const FaceTree::Node& n = tree_.nodes_[node];
   const Reached reached = reached_boxes(n, point_, reach2);
@@ -194,7 +194,7 @@ Nearest FaceTree::nearest(const vec3& p, Nearest best) const {
     const Leaf leaf = walk.next(float_above(best.distance2));
     if (leaf.is_none()) return best;
     for (uint32_t i = leaf.begin; i < leaf.end; ++i) try_triangle(p, i, best);
-    if (best.distance2 == 0) return best;  // as are half of the vertices of a coarser copy
+    if (best.distance2 == 0) return best;  // which holds for half of the vertices of a coarser copy
   }
 }
 

@@ -1,6 +1,7 @@
-// Boxes of floats, four a node, over B's triangles of doubles. Boxes are rounded outward and points
-// too, so that none is farther than what it holds. A search for the nearest triangle steers: an
-// upper bound holds for whichever it finds. Bounds of cells from below rest on the boxes (Walk).
+// Boxes of floats, four a node, over B's triangles of doubles. Boxes and points are rounded
+// outward, so that no box is farther than its triangles. A search for the nearest triangle steers:
+// any triangle that it finds gives a true upper bound. Bounds of cells from below rest on the boxes
+// (Walk).
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ namespace vkh::native {
 
 /// A triangle of B by its place in the tree's order, and the squared distance from it.
 struct Nearest {
-  double distance2 = 1e30;  ///< no two points are so far apart
+  double distance2 = 1e30;  ///< larger than any distance
   uint32_t place = kNone;
 };
 
@@ -65,8 +66,8 @@ class FaceTree {
   struct Box {
     std::array<float, 3> lo, hi;
   };
-  /// Goes over the triangles in all boxes that `may_hold`, until `look` returns false of a place;
-  /// returns whether it never did.
+  /// Calls look(place) for the triangles in all boxes for which `may_hold` is true, until a call
+  /// returns false; returns whether none did.
   template <class MayHold, class Look>
   bool each_in(const MayHold& may_hold, const Look& look) const;
 
@@ -107,14 +108,14 @@ class FaceTree {
   std::vector<Node> nodes_;
 };
 
-/// Goes over the leaves of a tree around a point, of a node's boxes the nearest first.
+/// Visits the leaves of a tree around a point, the nearest box of each node first.
 class Walk {
  public:
   /// The tree outlives it.
   Walk(const FaceTree& tree, const vec3& p);
 
-  /// The next leaf whose box, by its squared distance rounded down, is not beyond `reach2`; none is
-  /// left: an empty one. A reach may fall from call to call, and is under 2^127.
+  /// Returns the next leaf whose box has a squared distance, rounded down, of at most `reach2`; an
+  /// empty leaf if none is left. The reach may fall from call to call, and is under 2^127.
   Leaf next(float reach2);
   /// <= the squared distance of all triangles that are left, or reach2 if that is less.
   float least_left(float reach2) const;

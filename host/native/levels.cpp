@@ -8,7 +8,7 @@
 namespace vkh::native {
 namespace {
 
-// So small that a piece's cost hardly differs from others', so large that taking one costs nothing.
+// Few enough that pieces cost about the same, and enough that fetching a piece costs nothing.
 constexpr size_t kParentsOfPiece = 64;
 constexpr size_t kFacesAtOnce = 256;
 constexpr size_t kVerticesOfPiece = 256;
@@ -57,7 +57,8 @@ void Levels::close(Piece& piece, uint32_t face, const Bary3& at, double upper, C
   if (!closed_areas_.empty()) piece.closed.push_back({face, area_of(at)});
 }
 
-// A candidate that was given up keeps the upper end where it is: none below it needs refining.
+// A candidate that was given up keeps the upper end from falling: no candidate below it needs
+// refining.
 double Levels::threshold() const {
   const double near = max(total_.best.distance, goal_.known_lower) + goal_.tolerance;
   return max(max(near, goal_.within), given_up_);
@@ -71,7 +72,7 @@ std::vector<Levels::Piece> Levels::in_pieces(size_t count, size_t size, const Wo
   return pieces;
 }
 
-void Levels::take_over(const std::vector<Piece>& pieces) {
+void Levels::join_pieces(const std::vector<Piece>& pieces) {
   for (const Piece& piece : pieces) {
     total_.add(piece.gain);
     for (const Closed& c : piece.closed) closed_areas_[c.face] += c.area;
@@ -86,7 +87,8 @@ void Levels::end_level() {
   ++levels_;
 }
 
-// Neighbours in a file are mostly neighbours: a search starts from the triangle of the one before.
+// Vertices that follow each other in a file are mostly close: a search starts from the triangle of
+// the vertex before.
 void Levels::query_vertices(Piece& piece, size_t begin, size_t end) {
   uint32_t before = 0;
   for (size_t v = begin; v < end; ++v) {
@@ -101,8 +103,9 @@ void Levels::query_vertices(Piece& piece, size_t begin, size_t end) {
 
 void Levels::ask_vertices() {
   of_vertex_.resize(problem_.placed_a.at.size());
-  take_over(in_pieces(of_vertex_.size(), kVerticesOfPiece,
-                      [&](Piece& p, size_t begin, size_t end) { query_vertices(p, begin, end); }));
+  join_pieces(
+      in_pieces(of_vertex_.size(), kVerticesOfPiece,
+                [&](Piece& p, size_t begin, size_t end) { query_vertices(p, begin, end); }));
   const std::vector<UVec3>& faces = problem_.a.faces;
   for (uint32_t f = 0; f < faces.size(); ++f) {
     const Bary3 corner = whole_face();
@@ -118,7 +121,7 @@ void Levels::ask_vertices() {
 
 void Levels::bound_faces() {
   const size_t count = problem_.a.faces.size();
-  take_over(in_pieces(count, kFacesAtOnce, [&](Piece& piece, size_t begin, size_t end) {
+  join_pieces(in_pieces(count, kFacesAtOnce, [&](Piece& piece, size_t begin, size_t end) {
     for (size_t f = begin; f < end; ++f) bound_face(piece, static_cast<uint32_t>(f));
   }));
   end_level();
@@ -142,8 +145,8 @@ void Levels::bound_face(Piece& piece, uint32_t f) const {
       {whole, f, {near[0].place, near[1].place, near[2].place}, verdict.centre, verdict.upper});
 }
 
-// Leaves half of the room, where less than a quarter is left. Those with the smallest u go: what
-// is left may still bring the upper end down to them.
+// Frees half of the room if less than a quarter is left. The candidates with the smallest u are
+// given up: the others may still bring the upper end down to them.
 void Levels::give_up() {
   if (open_.size() <= most_ - most_ / 4) return;
   const auto kept = open_.end() - static_cast<std::ptrdiff_t>(most_ / 2);
@@ -245,7 +248,7 @@ void Levels::advance() {
     for (const Split& s : pieces[i].splits) bound_children(pieces[i], s);
   });
   open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(refined));
-  take_over(pieces);
+  join_pieces(pieces);
   end_level();
 }
 

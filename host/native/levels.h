@@ -9,8 +9,8 @@
 
 namespace vkh::native {
 
-/// Tells which candidates need no refining, in the frame: those within the tolerance of the best
-/// sample or of a known lower bound, and those within a limit.
+/// Decides which candidates need no refining: within the tolerance of the best sample or of a known
+/// lower bound, or within a limit. In the frame.
 struct Goal {
   double tolerance;
   double known_lower;
@@ -21,8 +21,9 @@ struct Goal {
 constexpr size_t kBytesOfCandidate = 3 * sizeof(Candidate);
 
 /// The state between two levels. Work on it is cut into pieces that do not depend on the number of
-/// threads, and each piece leaves its own results, which are joined in order: so do no bits.
-/// Whatever asks `keep_going` throws Interrupted where that says no, and leaves a true state.
+/// threads, and each piece leaves its own results, which are joined in order. So no bit of a result
+/// depends on it either. Functions that call `keep_going` throw Interrupted if it returns false,
+/// and leave a true state.
 class Levels {
  public:
   Levels(const Problem& problem, const Goal& goal, const NativeOptions& options,
@@ -64,7 +65,7 @@ class Levels {
   uint32_t choose_split(const Candidate& c, const Face& face) const;
   void split(Piece& piece, uint32_t number) const;
   void bound_children(Piece& piece, const Split& s) const;
-  void take_over(const std::vector<Piece>& pieces);
+  void join_pieces(const std::vector<Piece>& pieces);
   void end_level();
   void give_up();
   size_t choose_refined();

@@ -10,7 +10,7 @@
 
 namespace vkh::native {
 
-/// d >= 0 or the double above it, as the bit wants it.
+/// d >= 0, or the double above it, whichever has the bit.
 inline double marked(double d, bool inside) {
   const auto bits = std::bit_cast<uint64_t>(d);
   return std::bit_cast<double>(bits + ((bits & 1) ^ (inside ? 1 : 0)));

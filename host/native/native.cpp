@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kToleranceFloor = 0x1p-44;
 
 constexpr std::chrono::milliseconds kBetweenAsking(20);
-// A lower end that is only reported is proven no more often: that looks at all of B.
+// A lower end for a progress report is proven at most this often, since a proof visits all of B.
 constexpr std::chrono::milliseconds kBetweenProofs(100);
 
 double tolerance_in_files(const Problem& problem, const NativeOptions& options) {
@@ -31,8 +31,8 @@ double tolerance_in_files(const Problem& problem, const NativeOptions& options) 
                        Diagonal(diagonal(problem.box_a), problem.a.delta).least());
 }
 
-/// Distances, in the frame, that steer what is closed: what to_files() makes of an upper end there
-/// is no larger than what was asked.
+/// The distances, in the frame, within which candidates are closed. They are small enough that
+/// to_files() of such an upper end meets what was asked.
 Goal goal_of(const Problem& problem, const NativeOptions& options) {
   const Frame& frame = problem.frame;
   const double tolerance =
@@ -78,7 +78,7 @@ class Run {
     }
   }
 
-  // Any thread of a level calls this; goes_on() is asked on the caller's alone.
+  // Any thread of a level calls this; goes_on() is called only on the caller's.
   bool is_going() {
     if (std::this_thread::get_id() != home_ || Clock::now() - asked_at_ < kBetweenAsking)
       return true;
@@ -102,7 +102,8 @@ class Run {
     return !is_ended_;
   }
 
-  // A distance within the limit leaves nothing open, so that only one beyond it ends a run sooner.
+  // If the distance is within the limit, nothing is left open; only a distance beyond it ends a run
+  // sooner.
   bool is_decided() {
     const Limit& limit = options_.limit;
     if (!(limit.within > 0)) return false;

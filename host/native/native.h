@@ -13,7 +13,7 @@
 
 namespace vkh::native {
 
-/// How far a run is. The interval is true, in the files' unit.
+/// The progress of a run. The interval is true, in the files' unit.
 struct NativeProgress {
   uint32_t levels = 0;
   uint64_t open = 0;
@@ -28,8 +28,9 @@ struct NativeOptions {
       0;             ///< a distance that the answer need not resolve below; in the files' unit
   Limit limit = {};  ///< the run ends once the distance is proven to be within or beyond it
   uint32_t level_limit = std::numeric_limits<uint32_t>::max();
-  /// The memory for candidates. Where they would take more, a level refines those with the smallest
-  /// u and the others wait; where even that is too much, the smallest u are given up.
+  /// The memory for candidates. If they would take more, a level refines the candidates with the
+  /// smallest u and the others wait. If even that is too much, the candidates with the smallest u
+  /// are given up.
   uint64_t memory_bytes = uint64_t{3} << 30;
   size_t threads = 1;     ///< 0: one for each core
   bool coverage = false;  ///< fill in NativeReport::areas
@@ -62,15 +63,14 @@ struct NativeReport {
   bool has_witness = false;  ///< false: the run was ended before any sample
   uint32_t levels = 0;
   uint64_t candidates = 0, queries = 0, peak_candidates = 0, peak_bytes = 0;
-  /// The area of each face of A that was closed, then that which is open, in units of 1 /
-  /// kWholeArea of the face: exact, since parts are split at integers. Empty where no coverage was
-  /// asked for.
+  /// The closed area of each face of A, and then the open area of each, in units of 1 / kWholeArea
+  /// of the face: exact, since parts are split at integers. Empty if no coverage was asked for.
   std::vector<uint64_t> areas;
   std::array<uint64_t, 7> closed{};  ///< by exact case, u1, u2, ha, u3, a risen bound, precision
 };
 
-/// The same bits for any number of threads, unless goes_on() ends it. Throws InputError for what is
-/// no mesh, and what goes_on() throws.
+/// Returns the same bits for any number of threads, unless goes_on() ends it. Throws InputError for
+/// an invalid mesh, and what goes_on() throws.
 NativeReport run_pair(const Mesh& a, const Mesh& b, const NativeOptions& options = {});
 
 }  // namespace vkh::native

@@ -16,7 +16,7 @@ class ComparedCell {
   ComparedCell(const CellView& v, const gpu::FaceNormal& own, const NormalsGiven& given)
       : v_(v), own_(own), given_(given), moved_(static_cast<double>(given.push.moved)) {}
 
-  // As survey_normals.comp has it.
+  // Does what compared() of survey_normals.comp does.
   Agreement found(const gpu::CellBounds& b) {
     if (!find_near(b)) return any_agreement();
     Cosine all{1, 0};

@@ -41,7 +41,7 @@ inline Corners local_corners(const Face& f, const Bary3& t) {
 /// The point in the frame, rounded: it steers.
 inline vec3 near_position(const Face& f, const uvec2& at) { return f.a + local_corner(f, at); }
 
-/// No length that surfaces are measured with is larger: coordinates are at most 1 in size, or 4
+/// The largest length that surfaces are measured with: coordinates are at most 1 in size, or 4
 /// where the frame keeps the origin's place.
 inline constexpr double kReach = 16;
 

@@ -8,7 +8,7 @@
 namespace vkh::native {
 namespace {
 
-// No point of the cell is nearer.
+// A lower bound of the distances of all points of the cell.
 double lowest_of(const gpu::CellBounds& b) {
   return std::max(static_cast<double>(std::min({b.lower_a, b.lower_b, b.lower_c})), 0.0);
 }
@@ -22,7 +22,7 @@ class SideOfCell {
         face_kinds_(face_kinds),
         moved_(static_cast<double>(search.moved)) {}
 
-  // Counts by rays along the three axes; kClassUnseen: each meets an edge of B.
+  // The class by counting along rays on the three axes; kClassUnseen: each ray meets an edge of B.
   uint32_t by_winding() const {
     for (uint32_t axis = 0; axis < 3; ++axis) {
       int winding = 0;
@@ -56,8 +56,8 @@ class SideOfCell {
   }
 
  private:
-  // Whether a box may hold what a ray from the cell meets: a box of floats is exact in doubles, and
-  // the point is off by a few roundings.
+  // Whether a ray from the cell may meet a triangle in a box: a box of floats is exact in doubles,
+  // and the point is off by a few roundings.
   struct RayBoxes {
     RayBoxes(const CellFrame& t, uint32_t along)
         : axis(along),

@@ -66,7 +66,7 @@ inline Two3 two_combination(const Two3& base, double x, const Two3& u, double y,
   return two_sum(t.hi, low);
 }
 
-/// a . b; it steers only: nothing certified takes it.
+/// a . b; it only steers: nothing certified uses it.
 inline Two two_dot(const Two3& a, const Two3& b) {
   return {dot3(a.hi, b.hi), dot3(a.hi, b.lo) + dot3(a.lo, b.hi)};
 }

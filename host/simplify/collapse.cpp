@@ -31,7 +31,7 @@ Axis axis_of(size_t count, const At& at, int axis) {
 
 // meshoptimizer's errors are squares in float32: below about 2e-4 of a block they are noise, and
 // collapses of a fine mesh are in no order. A torus of 160,000 faces, as one block, was never
-// nearer than 4e-4 of its length, whatever the error.
+// nearer than 4e-4 of its length, for any error.
 constexpr double kFinest = 4e-4;
 // Faces of a block, at least, on a surface that goes once through the grid.
 constexpr double kFacesOfBlock = 250;

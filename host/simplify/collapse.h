@@ -17,7 +17,7 @@ namespace vkh {
 struct CollapseTarget {
   double error = std::numeric_limits<double>::infinity();  ///< an estimate, in the mesh's unit
   size_t faces = 0;
-  bool by_blocks = true;  ///< false: as one mesh, whatever that costs
+  bool by_blocks = true;  ///< false: as one mesh, even if that takes long
 };
 
 /// The vertices of a mesh, each position once, for any number of collapses. Several threads may

@@ -11,14 +11,14 @@ namespace vkh {
 namespace {
 
 /// The margin that lets `gate`, whose tolerance is 1e-7 of a diagonal, decide in any later run: the
-/// distance is farther than that from the limit. A limit under 8e-7 of the diagonal keeps a half,
-/// and a gate may want a tolerance of its own there.
+/// distance is farther than that from the limit. For a limit under 8e-7 of the diagonal the margin
+/// is half of it, and a gate may need a finer tolerance there.
 double without_margin(double within, double diagonal) {
   constexpr double kOfDiagonal = 4e-7, kOfLimit = 0.5;
   return within - std::min(kOfDiagonal * diagonal, kOfLimit * within);
 }
 
-// Of the limit: the width of an interval that decides it, and of one that is told.
+// Shares of the limit: the width of an interval that decides, and of one that is reported.
 constexpr double kDeciding = 1e-4, kTold = 1e-3;
 
 /// Makes the pipelines of runs first, which BVHs are built with, too.
@@ -45,7 +45,7 @@ Judge::Judge(Solver& solver, const Mesh& a, const SimplifyOptions& options,
       within_(without_margin(options.max.within, diagonal(bounding_box(a)))) {}
 
 SolveOptions Judge::run_options() const {
-  constexpr double kLeastTime = 1e-3;  // a run wants some
+  constexpr double kLeastTime = 1e-3;  // a run needs some time
   SolveOptions run = options_.solve;
   run.tolerance_is_absolute = true;
   run.engine.stage_times = false;

@@ -13,7 +13,7 @@ void check_ratio(double ratio) {
     throw UsageError("simplify: the ratio of a level's faces must be between 0 and 1");
 }
 
-/// Tells the progress callback of a level, and asks whether to make it.
+/// Calls the progress callback for a level; returns whether to make it.
 bool announce(const SimplifyOptions& options, const SimplifyProgress& progress, Judge& judge) {
   if (options.progress && !options.progress(progress)) judge.call_off();
   return judge.goes_on();

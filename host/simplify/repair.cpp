@@ -1,4 +1,5 @@
-// Goes on from the best candidate: what a stronger one breaks is locked, the rest is simplified.
+// Goes on from the best candidate: faces that a coarser one breaks are locked, and the rest is
+// simplified.
 #include <algorithm>
 
 #include "host/simplify/search.h"
@@ -15,7 +16,7 @@ constexpr double kWorthwhile = 0.99;  // a repair that keeps more of the faces w
 
 DVec3 middle_of(const DVec3& p, const DVec3& q) { return 0.5 * p + 0.5 * q; }
 
-// Four points of a face that no edge of it ends at: edges' middles, and its own.
+// Adds four points of a face that are no corners: the middles of its edges, and its own.
 void add_inner_points(const Mesh& mesh, const UVec3& face, std::vector<DVec3>& points) {
   const DVec3 &a = mesh.vertices[face.x], &b = mesh.vertices[face.y], &c = mesh.vertices[face.z];
   const DVec3 middle = middle_of(a, b);

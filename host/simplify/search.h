@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// The best candidate so far, and the judging of others.
+/// A search: it holds the best candidate so far, and judges others.
 class Search {
  public:
   Search(Judge& judge, const Collapser& collapser, const SimplifyOptions& options)
@@ -20,9 +20,9 @@ class Search {
   void try_whole();
   /// Tries sixteen errors in geometric steps, the largest first: a candidate of few faces costs
   /// little. Then narrows the bracket between the first that passes and the one before it. The
-  /// candidates are made before, on several threads, but for those of the smallest errors.
+  /// candidates are made before, on several threads, except for the ones of the smallest errors.
   void scan_errors();
-  /// Simplifies the best candidate further but for the patches that this breaks: these, and the
+  /// Simplifies the best candidate further, except for the patches that this breaks: these, and the
   /// faces around them, are locked, and the rest is simplified again.
   void repair();
 

@@ -13,7 +13,7 @@ bool search_all(Search& search) {
     search.scan_errors();
     if (!search.has_best()) search.try_whole();
     search.repair();
-  } catch (const Interrupted&) {  // what passed before stays
+  } catch (const Interrupted&) {  // the best candidate so far stays
     return false;
   }
   return search.goes_on();

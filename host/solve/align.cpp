@@ -21,14 +21,14 @@ constexpr size_t kFew = 300, kSome = 2000;  // samples of the first two stages
 constexpr size_t kForAxes = 40'000;
 constexpr double kFar = 100;         // sizes: what lies farther off is shifted first
 constexpr double kBad = 0.01;        // of the size: a trimmed rms that asks for more starts
-constexpr double kPoor = 0.02;       // of the size: a trimmed rms that is told
-constexpr double kLeastShare = 0.6;  // of the samples: fewer within their noise is told
+constexpr double kPoor = 0.02;       // of the size: a trimmed rms that is noted
+constexpr double kLeastShare = 0.6;  // of the samples: fewer within their noise are noted
 constexpr double kGap = 0.1;         // of the largest variance: closer ones leave an axis open
 constexpr double kElsewhere = 0.02;  // of the size, between two places
 constexpr double kAsGood = 1.02, kRival = 1.1;
-// A is called a mirror image where that is four times closer, and A is off by more than what a scan
-// is: the capped rms of both, the latter as a share of the size. A part that is its own mirror
-// image, or nearly so, lies about as close either way.
+// A is called a mirror image if its mirror image is four times closer, and A is off by more than a
+// scan is: the capped rms of both, the latter as a share of the size. A part that is its own mirror
+// image, or nearly so, is about as close either way.
 constexpr double kMirrored = 0.25, kOff = 0.003;
 constexpr size_t kPlaces = 3;
 
@@ -74,7 +74,7 @@ std::vector<DVec3> mirrored(const std::vector<DVec3>& samples, const Shape& a) {
   return out;
 }
 
-/// Lays A's axes on B's, with two of them reversed or none.
+/// Lays A's axes on B's: as they are, and with each two of them reversed.
 Candidates by_axes(const Shape& a, const Shape& b) {
   Candidates starts;
   if (!a.has_axes() || !b.has_axes()) return starts;
@@ -168,7 +168,7 @@ Candidates PlaceSearch::starts_as_turned() const {
   return first;
 }
 
-/// Settles roughly, and keeps those that rank first.
+/// Settles roughly, and keeps the candidates that rank first.
 void PlaceSearch::add_best(Candidates more) {
   constexpr size_t kBest = 20;
   fitter_.refine(more, std::span(few_).first(kFew / 3), {.steps = 6});
@@ -178,7 +178,7 @@ void PlaceSearch::add_best(Candidates more) {
   all_.insert(all_.end(), more.begin(), more.end());
 }
 
-/// Adds starts where the first ones do not decide: no good fit, or axes that could be any.
+/// Adds starts if the first ones do not decide: there is no good fit, or the axes are not unique.
 void PlaceSearch::search_on() {
   const auto best = [&] { return std::min_element(all_.begin(), all_.end(), ranks_before); };
   const bool is_bad = !(best()->trimmed <= kBad * frame_.size);

@@ -14,8 +14,8 @@
 
 namespace vkh {
 
-/// One submission, which should take no longer than a user waits for Ctrl-C. Without cells: faces
-/// of A from `first` on, as many as there are bounds.
+/// One submission, which should take no longer than a user waits for Ctrl-C. Without cells it is of
+/// A's faces from `first` on, as many as there are bounds.
 struct CellBatch {
   std::span<const gpu::Cell> cells;
   uint32_t first = 0;
@@ -29,7 +29,7 @@ struct PointBatch {
   bool has_low = false;               ///< B's vertices have low parts
 };
 
-/// Bounds a cell before anything is known but that no distance is above `farthest`.
+/// The bounds of a cell of which nothing is known except that no distance is above `farthest`.
 inline gpu::CellBounds unknown_bounds(float farthest) {
   return {.lower_a = 0,
           .lower_b = 0,
@@ -48,8 +48,8 @@ inline gpu::CellBounds unknown_bounds(float farthest) {
           .triangle = gpu::kNone};
 }
 
-/// The cells to split: those whose score's bin is larger than `bin`, `above` of them, and the first
-/// `ties` of this bin.
+/// The cells to split: all `above` cells whose score's bin is larger than `bin`, and the first
+/// `ties` cells of this bin.
 struct SurveyChoice {
   uint32_t bin = 0, above = 0, ties = 0;
   uint32_t parts = 4;  ///< halves of halves; or 2
@@ -60,22 +60,23 @@ struct CellRange {
   uint32_t first = 0, count = 0;
 };
 
-/// Tells a search for the sides of cells what it has to know of B.
+/// The input of a search for the sides of cells.
 struct SideSearch {
-  /// Tells of each face of B what kind it is: gpu::kFaceCovered and so on.
+  /// The kind of each face of B: gpu::kFaceCovered and so on.
   std::span<const uint32_t> face_kinds;
   /// B bounds a solid: it winds `front` times round all that is in front of its faces, and one time
   /// more or less round all other points off it.
   bool is_solid = false;
   int front = 0;
-  float moved = 0;  ///< so far may both meshes' vertices together be from where they are stored
+  float moved = 0;  ///< the most that both meshes' vertices together are from where they are stored
 };
 
-/// Tells a comparison of normals what it has to know of both meshes.
+/// The input of a comparison of normals.
 struct NormalSearch {
   std::span<const gpu::FaceNormal> normals;  ///< of A's faces, and then of B's
-  float moved = 0;  ///< so far may both meshes' vertices together be from where they are stored
-  float limit_down = 0, limit_up = 1;  ///< normals agree from a cosine between them on
+  float moved = 0;  ///< the most that both meshes' vertices together are from where they are stored
+  float limit_down = 0,
+        limit_up = 1;  ///< normals agree if their cosine is at least a limit between these two
 };
 
 /// Cells, one entry each.
@@ -86,7 +87,7 @@ struct CellsRead {
 };
 
 /// A survey's cells, which stay on the device: they tile A, each with its bounds. Calls block until
-/// the device has done what they ask for, but for those that say otherwise.
+/// the device has done the work, unless their comment says otherwise.
 class SurveyCells {
  public:
   virtual ~SurveyCells() = default;
@@ -96,13 +97,13 @@ class SurveyCells {
   virtual size_t count() const = 0;
   /// The most cells that the device can bind.
   virtual size_t most() const = 0;
-  /// Counts some cells by the bins of their scores, gpu::kScoreBins of them; bin 0 has those that
-  /// are in their face's way although no split helps. All are scored before a split.
+  /// Counts some cells by the bins of their scores, gpu::kScoreBins of them; bin 0 has the cells
+  /// that keep their face open although no split helps. All cells must be scored before a split.
   virtual std::span<const uint32_t> score(const gpu::SurveyPlan& plan, const CellRange& some) = 0;
   /// Splits each chosen cell into parts, which have no bounds of their own until bound(); returns
   /// false, and does nothing, if there is no memory for them. It need not wait.
   virtual bool split(const SurveyChoice& choice) = 0;
-  /// Bounds new cells, which are the parts of those that were split, or A's faces. `wait`: false if
+  /// Bounds new cells, which are the parts of split cells, or A's faces. `wait`: false if
   /// more of them or a tally follow.
   virtual void bound(size_t first, size_t count, bool wait) = 0;
   /// Adds up some cells at the plan's edges. Every distance is below 2^(unit - 127).
@@ -113,10 +114,12 @@ class SurveyCells {
   virtual void find_sides(const SideSearch& search, float above, const CellRange& some) = 0;
   /// Takes the normals of both meshes, which outlive what follows, for find_normals().
   virtual void begin_normals(const NormalSearch& search) = 0;
-  /// Compares normals on those of some cells where that was not done, which lose their sides.
+  /// Compares normals on the cells of a range where that was not done. These cells lose their
+  /// sides.
   virtual void find_normals(const CellRange& some) = 0;
-  /// Returns, of each face of A, a distance that some point of its cells of the one set of classes
-  /// reaches, and then, of each, one that none of the other set exceeds; 0 if it has none.
+  /// Returns, for each face of A, a distance that some point of its cells of `reached_classes`
+  /// reaches, and then, for each, a distance that no point of its cells of `highest_classes`
+  /// exceeds; 0 for a face without such cells.
   virtual std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes) = 0;
   /// Reads some cells.
   virtual CellsRead read(const CellRange& some) = 0;

@@ -18,8 +18,8 @@
 namespace vkh {
 namespace {
 
-// Points of one batch: at first, so that a CPU is not busy for seconds, and at most: 24 MB. Batches
-// aim at this long.
+// The points of the first batch, few enough not to keep a CPU busy for seconds; the most points of
+// a batch, 24 MB; and the time at which batches aim.
 constexpr size_t kFirstPoints = size_t{1} << 12;
 constexpr size_t kMostPoints = size_t{1} << 20;
 constexpr double kBatchMs = 100;
@@ -29,7 +29,8 @@ constexpr double kBatchMs = 100;
 // a distance from 2^-6 up. The next frame, for points farther out, is 2^20 as large.
 constexpr int kLeastExponent = -6;
 constexpr int kFrameDoublings = 20;
-// The frame of points whose distance from B's middle no double holds: around the origin.
+// The number of the frame around the origin, for points whose distance from B's middle no double
+// holds.
 constexpr int kWholeRange = std::numeric_limits<int>::max();
 
 int floor_divide(int x, int y) { return (x >= 0 ? x : x - y + 1) / y; }
@@ -86,7 +87,7 @@ class ClosestSearch {
                std::vector<uint32_t>(count)};
   }
 
-  /// Finds the closest points of those with these numbers, which B's frame serves.
+  /// Finds the closest points for the points with these numbers, which B's frame serves.
   void find(const LaidB& b, std::vector<size_t> all) {
     sort_along_curve(b.frame, question_.points, all);
     std::span<const size_t> numbers = all;

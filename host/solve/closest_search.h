@@ -20,7 +20,7 @@ struct LaidB {
   double displacement;  ///< by storing it, in the frame, rounded up
   FindClosest find;
 };
-/// Lays B in another frame than its own, for points far from it.
+/// Stores B in another frame than its own, for points far from it.
 using LayB = std::function<LaidB(const Frame&)>;
 
 /// B in its own frame, on the device.

@@ -16,8 +16,8 @@
 namespace vkh {
 namespace {
 
-// Each device has about so many shares of the points, so that no other waits long for the last. A
-// share is at least the search's first batch, and at most its largest.
+// About how many shares of the points each device gets, so that no device waits long for the last
+// one. A share is at least the search's first batch, and at most its largest.
 constexpr size_t kSharesOfDevice = 8;
 constexpr size_t kSmallestShare = size_t{1} << 12;
 constexpr size_t kLargestShare = size_t{1} << 20;
@@ -52,7 +52,7 @@ class ClosestTogether {
   /// run on no other. Where there is no thread, the search runs here, and hears nothing.
   ClosestPoints run(const ClosestGoesOn& goes_on) {
     auto searching =
-        std::async(std::launch::async | std::launch::deferred, [this] { search_and_tell(); });
+        std::async(std::launch::async | std::launch::deferred, [this] { search_and_report(); });
     const bool is_here =
         searching.wait_for(std::chrono::seconds(0)) == std::future_status::deferred;
     try {
@@ -87,8 +87,8 @@ class ClosestTogether {
     is_called_off_ = true;
   }
 
-  void search_and_tell() {
-    const auto tell = [this] {
+  void search_and_report() {
+    const auto report = [this] {
       const std::lock_guard lock(mutex_);
       is_over_ = true;
       changed_.notify_all();
@@ -96,10 +96,10 @@ class ClosestTogether {
     try {
       search();
     } catch (...) {
-      tell();
+      report();
       throw;
     }
-    tell();
+    report();
   }
 
   /// Runs all devices; once more where one that was lost has left points when others had ended.

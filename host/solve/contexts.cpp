@@ -8,9 +8,9 @@
 namespace vkh {
 namespace {
 
-// These add kernels, and change no other one.
+// Flags that add kernels, and change no other kernel.
 constexpr uint32_t kAdditions = VKH_CONTEXT_CELLS | VKH_CONTEXT_CLOSEST;
-// No more than these is in the kernels of BVHs and of closest points.
+// The only switches that change the kernels of BVHs and of closest points.
 constexpr uint32_t kOfHierarchies = kSwitchWide | kSwitchByAddress;
 
 }  // namespace
@@ -36,7 +36,8 @@ ContextHandle Contexts::create(uint32_t switches) const {
   return {context, vkhDestroyContext};
 }
 
-// Who asks for a BVH before any run may ask for closest points next, which is one kernel more.
+// A caller that asks for a BVH before any run may ask for closest points next, which take one more
+// kernel.
 VkhContext Contexts::get(uint32_t switches, ContextUse use) {
   const std::lock_guard lock(mutex_);
   const auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& one) {

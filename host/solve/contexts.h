@@ -43,7 +43,7 @@ class Contexts {
   std::list<Made> made_;
 };
 
-/// Whether a context that was created for `made` does in place of one for `asked`.
+/// Whether a context that was created for `made` may be used for `asked`.
 bool serves(uint32_t made, uint32_t asked, ContextUse use);
 
 }  // namespace vkh

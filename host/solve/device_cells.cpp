@@ -30,14 +30,14 @@ DeviceCells::DeviceCells(const Device& device, VkhContext context, const VkhProb
       buffers_(buffers),
       submit_(std::move(submit)) {}
 
-// A buffer that is there may have room for more.
+// The buffer of an earlier survey may have room for more.
 void DeviceCells::begin(std::span<const uint64_t> weights, float farthest) {
   const uint32_t faces = problem_.a.faceCount;
   const auto bytes_of = [&](uint32_t capacity) {
     return vkhGetSurveySize(context_, faces, capacity);
   };
   const auto bindable = static_cast<uint32_t>(most());
-  if (faces > bindable) throw MemoryError("the device binds no survey of so many faces");
+  if (faces > bindable) throw MemoryError("the device cannot bind a survey of this many faces");
   capacity_ = std::min(std::max(kCellsOfFace * faces, kFewCells), bindable);
   grow(buffers_.memory, device_, bytes_of(capacity_), {kOfCells, Placement::kDevice});
   while (capacity_ <= bindable / 2 && bytes_of(2 * capacity_) <= buffers_.memory.size())
@@ -55,7 +55,7 @@ void DeviceCells::begin(std::span<const uint64_t> weights, float farthest) {
   });
 }
 
-// Together with what waits, in its order.
+// Submits what waits, in its order.
 void DeviceCells::submit() {
   const std::vector<Record> waiting = std::exchange(waiting_, {});
   submit_([&](VkCommandBuffer commands) {

@@ -14,10 +14,10 @@ namespace vkh {
 struct SurveyBuffers {
   Buffer memory;                   // the device's own
   Buffer weights, plan;            // written by the host
-  Buffer histogram, table, faces;  // read by it,
-  Buffer cells, bounds, classes;   // and these if it takes over
-  Buffer face_kinds, normals;      // of both meshes: written by it,
-  Buffer known;                    // and bounds that it found
+  Buffer histogram, table, faces;  // read by the host,
+  Buffer cells, bounds, classes;   // and these if the host takes them over
+  Buffer face_kinds, normals;      // of both meshes, written by the host,
+  Buffer known;                    // and bounds that the host found
 };
 
 class DeviceCells : public SurveyCells {

@@ -15,8 +15,9 @@ namespace vkh {
 class EarlyFrames {
  public:
   /// Returns frame_pair() of the meshes, or A in the frame of a B that pairs share, as a prepared B
-  /// has it; with the floats that the device will read, unless a mesh is large. Nothing: the worker
-  /// does it, for B's frame does not serve A, or finds the pair's error.
+  /// has it; with the floats that the device will read, unless a mesh is large. Returns nothing if
+  /// the worker has to do it: B's frame does not serve A, or a mesh has an error, which the worker
+  /// then finds.
   std::optional<FramedPair> of(const StreamPair& pair);
 
  private:

@@ -107,7 +107,7 @@ class Search {
                              [](const Limit& x, const Limit& y) { return x.beyond < y.beyond; });
   }
 
-  /// Fills in the values of all of A, beyond the parts that were asked about.
+  /// Fills in the values for all of A, not just for the parts that were solved.
   void complete(bool is_decided, bool is_open) {
     Report& r = out_.report;
     const Box box = bounding_box(a_);

@@ -8,14 +8,14 @@
 namespace vkh {
 namespace {
 
-void take_witness(const Report& from, Report& to) {
+void copy_witness(const Report& from, Report& to) {
   to.lower = from.lower;
   to.witness_a = from.witness_a;
   to.witness_b = from.witness_b;
   to.has_witness = from.has_witness;
 }
 
-/// Adds each to the one of its name, or behind all.
+/// Adds each item to the one with its name, or appends it.
 template <class Named, class Add>
 void add_by_name(const std::vector<Named>& more, std::vector<Named>& all, const Add& add) {
   for (const Named& one : more) {
@@ -57,7 +57,7 @@ void add_work(const Report& part, Report& all) {
 }
 
 void add(const Report& part, Report& all) {
-  if (part.lower > all.lower || !all.has_witness) take_witness(part, all);
+  if (part.lower > all.lower || !all.has_witness) copy_witness(part, all);
   all.upper = std::max(all.upper, part.upper);
   add_work(part, all);
   all.peak_frontier += part.peak_frontier;
@@ -98,7 +98,7 @@ Status joined_status(const Report& whole, std::span<const Report> parts) {
 }
 
 Report narrowed(const Report& first, Report second) {
-  if (first.lower > second.lower && first.has_witness) take_witness(first, second);
+  if (first.lower > second.lower && first.has_witness) copy_witness(first, second);
   second.upper = std::min(first.upper, second.upper);
   second.peak_frontier = std::max(first.peak_frontier, second.peak_frontier);
   add_work(first, second);

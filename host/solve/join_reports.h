@@ -13,11 +13,13 @@ namespace vkh {
 /// part.
 Report joined_report(std::span<const Report> parts);
 
-/// Closed if the whole interval meets the tolerance, whatever ended its parts. Otherwise the status
-/// that ended an open one, a caller's wish before a budget; kPruned by whole.known_lower alone.
+/// Closed if the whole interval meets the tolerance, no matter what ended its parts. Otherwise the
+/// status that ended an open part: a caller's wish comes before a budget, and only
+/// whole.known_lower makes it kPruned.
 Status joined_status(const Report& whole, std::span<const Report> parts);
 
-/// Adds what bounds closed, by their names: another device may have other bounds.
+/// Adds the counts of what bounds closed, by the bounds' names: another device may have other
+/// bounds.
 void add_culled(const std::vector<CullCount>& culled, std::vector<CullCount>& all);
 
 /// Joins two runs of the same part: both intervals are true.

@@ -1,5 +1,4 @@
-// The device memory that meshes of a size take, or the reason why the device takes none of that
-// size.
+// The device memory that meshes of a size take, or the reason why the device cannot take them.
 #pragma once
 
 #include "engine/vkhausdorff.h"
@@ -14,8 +13,8 @@ struct MeshSize {
 bool takes_as_a(VkhContext context, const MeshSize& a);
 bool takes_as_b(VkhContext context, const MeshSize& b);
 
-/// Throw DeviceError if a mesh of that size is too large for the context's device: with its size,
-/// the largest that is not, and what helps.
+/// Throw DeviceError if a mesh of that size is too large for the context's device: the message has
+/// its size, the largest possible size, and what helps.
 VkhWorkspaceRequirements workspace_for(VkhContext context, const MeshSize& a);
 VkhHierarchyRequirements hierarchy_for(VkhContext context, const MeshSize& b);
 

@@ -33,14 +33,14 @@ gpu::Wide wide_of(uint64_t x) {
 }
 uint64_t whole_of(const glm::uvec2& x) { return uint64_t{x.y} << 32 | x.x; }
 
-// As survey_score.comp and survey_tally.comp have it.
+// The same as in survey_score.comp and survey_tally.comp.
 lib::TallyBounds bounds_of(const gpu::CellBounds& bounds, uint32_t of_class,
                            const gpu::CellAgreement& found, const gpu::SurveyPlan& plan) {
   const lib::TallyBounds b = lib::tally_bounds(bounds);
   return plan.of_normals != 0 ? lib::with_normals(b, found, of_class) : b;
 }
 
-// As survey_score.comp has it.
+// The same as in survey_score.comp.
 float score_of(const gpu::CellBounds& bounds, uint32_t of_class, const gpu::CellAgreement& found,
                const gpu::SurveyPlan& plan) {
   if (!(plan.mean > 0 || plan.square > 0 || plan.open_count > 0)) return 0;
@@ -114,13 +114,13 @@ class Sums {
       if (!made) made = bounds_of(told.bounds, told.of_class, told.found, plan);
       return *made;
     }
-    // All of the cell counts, but where normals are compared.
+    // Whether all of the cell counts, which it does unless normals are compared.
     bool is_whole() const { return plan.of_normals == 0; }
   };
 
   void add(size_t at, const glm::uvec2& x) { sums_[at] += whole_of(x); }
 
-  // Goes over the edges that cut the cell, and to the first one that it is all within.
+  // Visits the edges that cut the cell, and the first edge within which it lies entirely.
   void add_surely_within(Bounded& b, const lib::CellWeight& w) {
     const gpu::CellBounds& c = b.told.bounds;
     const float least = std::min({c.upper_a, c.upper_b, c.upper_c});
@@ -300,7 +300,8 @@ void NativeCells::split_one(uint32_t rank) {
   }
 }
 
-// No distance over a part of a cell is above the cell's highest, which is there before.
+// Keeps the cell's highest, which is stored before: no distance over a part of the cell is above
+// it.
 void NativeCells::bound_one(uint32_t place) {
   gpu::CellBounds b = pair_.bounds(cells_[place], near_[place]);
   b.highest = std::min(b.highest, bounds_[place].highest);

@@ -67,7 +67,7 @@ size_t threads_of(const NativeProcessor& processor) {
   return processor.threads != 0 ? processor.threads : thread_count();
 }
 
-/// Their places are words.
+/// The most cells, since their places are words.
 constexpr size_t kMostCells = size_t{1} << 31;
 
 void fill_counts(const native::NativeReport& r, Report& out) {
@@ -218,7 +218,7 @@ Report NativeRuns::distance(const PairView& pair, const SolveOptions& options,
   out.tolerance = found.tolerance;
   out.lower = found.lower;
   out.upper = found.upper;
-  // A face of A that is a face of B may have a bound of 1e-14 all the same.
+  // Even a face of A that is a face of B may have a bound of 1e-14.
   if (out.lower == 0 && out.upper > 0 && is_within_faces_of(a, b)) out.upper = 0;
   out.status = status_of(found, out, watch.ended);
   out.device = description_;

@@ -13,7 +13,7 @@
 
 namespace vkh {
 
-/// Throws UsageError: `what` is done on a device alone.
+/// Throws UsageError, which says that only a device does `what`.
 [[noreturn]] void refuse_natively(const std::string& what);
 /// Refuses pipelines that only devices have: presets, switches.
 void check_native(const EngineOptions& options);
@@ -29,7 +29,7 @@ class NativeRuns {
   std::vector<Report> distances(std::span<const PairView> pairs,
                                 const std::vector<SolveOptions>& options) const;
 
-  /// B in its own frame, for closest points.
+  /// Stores B in its own frame, for closest points.
   KeptMesh kept(Mesh b) const;
   ClosestPoints closest(const KeptMesh& b, const ClosestQuestion& question) const;
 

@@ -29,7 +29,7 @@ constexpr double kToleranceFloor = 6e-11;
 
 // The limit in the frame, so that what the device proves of the stored meshes holds in the files'
 // units: to_files() subtracts, or adds, the displacement by storing. A limit for which no float is
-// left is decided as the smallest one, within which nothing is.
+// left is replaced by the smallest float, within which no distance is.
 float limit_in_frame(const Pair& pair, double within) {
   if (!(within > 0)) return 0;
   const double inner = pair.frame.to_frame(within) - pair.displacement;
@@ -60,8 +60,9 @@ std::function<float()> known_since(const Pair& pair) {
 }  // namespace
 
 // B's frame is B's alone, so that the answer does not depend on the A's before. B fills it; an A
-// up to four times as far out costs two of the 48 bits. Farther ones would lose the tolerance, not
-// the truth, and get a frame around both. A point has no size to choose a frame by.
+// up to four times as far out costs two of the 48 bits. A farther A would still get a true
+// interval, but not within the tolerance, so it gets a frame around both meshes. A single point has
+// no size to choose a frame by.
 bool serves(const Frame& frame_of_b, const Box& box_b, const Box& box_a) {
   const double extent = frame_of_b.extent(join(box_a, box_b));
   return extent >= 0.5 && extent <= 4;
@@ -113,8 +114,8 @@ namespace {
 
 constexpr double kCoarse = 1e-6;  // a fraction of A's diagonal: the precision of plain floats
 
-// Returns whether a run ended within its own tolerance, of its lower bound or of one that was
-// known, and not within that of the report.
+// Returns whether a run ended within its own tolerance of its lower bound, or of a known one, but
+// not within the report's tolerance.
 bool is_too_coarse(const Report& r) {
   return (r.status == Status::kClosed && !is_within(r.lower, r.upper, r.tolerance)) ||
          (r.status == Status::kPruned && !is_within(r.known_lower, r.upper, r.tolerance));

@@ -61,8 +61,8 @@ VkhMesh view(VkBuffer buffer, VkDeviceSize offset, const MeshData& m) {
 
 // Allocates in the device's memory, or in the host's if `policy` allows it and the device has no
 // more.
-void take_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, MemoryPolicy policy,
-                 MemoryPool* pool = nullptr) {
+void allocate_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, MemoryPolicy policy,
+                     MemoryPool* pool = nullptr) {
   try {
     grow(buffer, device, bytes, {kWorking, Placement::kDevice, pool});
   } catch (const MemoryError&) {
@@ -83,18 +83,18 @@ void write(std::byte* to, const MeshData& m) {
 
 }  // namespace
 
-void HierarchyMemory::take(const Device& device, const VkhHierarchyRequirements& needed,
-                           MemoryPolicy policy) {
+void HierarchyMemory::allocate(const Device& device, const VkhHierarchyRequirements& needed,
+                               MemoryPolicy policy) {
   for (uint32_t i = 0; i < needed.rangeCount; ++i)
-    take_buffer(ranges_[i], device, needed.ranges[i], policy);
+    allocate_buffer(ranges_[i], device, needed.ranges[i], policy);
 }
 
 void HierarchyMemory::grow(const Device& device, const VkhHierarchyRequirements& needed,
                            MemoryPolicy policy, MemoryPool* pool) {
   for (uint32_t i = 0; i < needed.rangeCount; ++i)
-    take_buffer(ranges_[i], device,
-                policy == MemoryPolicy::kDevice ? roomy(needed.ranges[i]) : needed.ranges[i],
-                policy, pool);
+    allocate_buffer(ranges_[i], device,
+                    policy == MemoryPolicy::kDevice ? roomy(needed.ranges[i]) : needed.ranges[i],
+                    policy, pool);
   for (uint32_t i = needed.rangeCount; i < ranges_.size(); ++i) ranges_[i] = Buffer();
 }
 
@@ -135,8 +135,8 @@ void check_engine(VkhResult result, const char* what) {
 
 // Chooses where the host writes the meshes: directly to where the device reads them, or into memory
 // of the host, to be copied there. An H200 takes 0.3 s to give out a GB of the latter. The part of
-// its memory that the host sees may be small, and taken.
-void PairBuffers::take_meshes(VkDeviceSize bytes, MemoryPolicy policy) {
+// its memory that the host sees may be small, and in use already.
+void PairBuffers::allocate_meshes(VkDeviceSize bytes, MemoryPolicy policy) {
   uploaded_bytes_ = bytes;
   bytes = roomy(bytes);
   if (policy == MemoryPolicy::kHost)  // they are read once
@@ -155,7 +155,7 @@ void PairBuffers::take_meshes(VkDeviceSize bytes, MemoryPolicy policy) {
 // Either mesh may be missing.
 void PairBuffers::place_meshes(const MeshData& a, const MeshData& b, MemoryPolicy policy) {
   const VkDeviceSize bytes_a = bytes_of(a), bytes_b = bytes_of(b);
-  take_meshes(bytes_a + bytes_b, policy);
+  allocate_meshes(bytes_a + bytes_b, policy);
   if (bytes_a > 0) problem_.a = view(meshes_.handle(), 0, a);
   if (bytes_b > 0) mesh_b_ = view(meshes_.handle(), bytes_a, b);
 }
@@ -182,38 +182,38 @@ void PairBuffers::place_b(const VkhHierarchyRequirements& needed, const RunInput
 // If memory is too small, the run gets `share` at most, half of that if there is not so much, and
 // so on, and B's BVH gets what is left: all queries read it. If the caller asked for a size,
 // `given`, the run gets the whole of it.
-VkDeviceSize PairBuffers::take_scarce_workspace(VkDeviceSize bytes, VkDeviceSize least,
-                                                VkDeviceSize share, bool given) {
+VkDeviceSize PairBuffers::allocate_scarce_workspace(VkDeviceSize bytes, VkDeviceSize least,
+                                                    VkDeviceSize share, bool given) {
   const VkDeviceSize most = given ? bytes : std::clamp(share, least, std::max(bytes, least));
   for (VkDeviceSize run = most;; run = std::max(run / 2, least)) {
     try {
-      take_buffer(workspace_, device_, run, MemoryPolicy::kDevice);
+      allocate_buffer(workspace_, device_, run, MemoryPolicy::kDevice);
       return run;
     } catch (const MemoryError&) {
     }
     if (given || run == least) break;
   }
-  take_buffer(workspace_, device_, bytes, MemoryPolicy::kHost);
+  allocate_buffer(workspace_, device_, bytes, MemoryPolicy::kHost);
   return bytes;
 }
 
 // On the device one buffer serves twice: as scratch while B's BVH is built, then as the run's
 // workspace. If memory is scarce, the scratch is a buffer of its own in the host's memory.
-VkDeviceSize PairBuffers::take_workspace(const VkhWorkspaceRequirements& needed,
-                                         VkDeviceSize scratch, const RunInput& in,
-                                         MemoryBudget budget) {
+VkDeviceSize PairBuffers::allocate_workspace(const VkhWorkspaceRequirements& needed,
+                                             VkDeviceSize scratch, const RunInput& in,
+                                             MemoryBudget budget) {
   const VkDeviceSize start =
       in.start_memory_bytes == 0 ? needed.recommended : in.start_memory_bytes;
   const VkDeviceSize bytes =
       std::clamp(in.memory_bytes == 0 ? start : in.memory_bytes, needed.minimum, needed.maximum);
   if (budget.policy == MemoryPolicy::kDevice) {
-    take_buffer(workspace_, device_, std::max(bytes, scratch), MemoryPolicy::kDevice, pool_);
+    allocate_buffer(workspace_, device_, std::max(bytes, scratch), MemoryPolicy::kDevice, pool_);
     scratch_ = {workspace_.handle(), 0, workspace_.size()};
     return bytes;
   }
   const VkDeviceSize taken =
-      take_scarce_workspace(bytes, needed.minimum, budget.share, in.memory_bytes != 0);
-  if (scratch > 0) take_buffer(building_, device_, scratch, MemoryPolicy::kHost);
+      allocate_scarce_workspace(bytes, needed.minimum, budget.share, in.memory_bytes != 0);
+  if (scratch > 0) allocate_buffer(building_, device_, scratch, MemoryPolicy::kHost);
   scratch_ = {building_.handle(), 0, building_.size()};
   return taken;
 }
@@ -246,11 +246,11 @@ void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
   VkhHierarchyRequirements hierarchy{};
   if (in.resident == nullptr) hierarchy = hierarchy_for(context, counts_of(*in.b.mesh));
   place_meshes(in.a, b, budget.policy);
-  take_buffer(report_, device_, kReportBytes, budget.policy, pool_);
+  allocate_buffer(report_, device_, kReportBytes, budget.policy, pool_);
   grow(readback_, device_, kReportBytes,
        {VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback, pool_});
   place_areas(in, out, budget.policy);
-  const VkDeviceSize bytes = take_workspace(workspace, hierarchy.scratchSize, in, budget);
+  const VkDeviceSize bytes = allocate_workspace(workspace, hierarchy.scratchSize, in, budget);
   place_b(hierarchy, in, budget.policy);
   set_problem(in, bytes, bytes < workspace.maximum);
   if (!is_laid_) write_meshes(in.a, b);
@@ -260,7 +260,7 @@ void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
 
 // Returns the kept memory if it is large enough and not the run's own; otherwise new memory. The
 // kept one is freed before that unless it is the run's own.
-VkhMemory PairBuffers::take_room(VkDeviceSize bytes) {
+VkhMemory PairBuffers::allocate_room(VkDeviceSize bytes) {
   const bool is_own = problem_.workspace.buffer == larger_.handle();
   if (is_own || larger_.size() < bytes) {
     if (!is_own) larger_ = Buffer();
@@ -285,7 +285,7 @@ void PairBuffers::make_room(VkhContext context, RunOutput& out) {
   const VkDeviceSize bytes = std::min(bytes_for(2 * wanted), most);
   next_ = problem_.workspace;
   try {
-    if (bytes > problem_.workspace.size) next_ = take_room(bytes);
+    if (bytes > problem_.workspace.size) next_ = allocate_room(bytes);
   } catch (const MemoryError&) {  // candidates without room can wait
   }
   problem_.options.pauseWhenFull = next_->size >= bytes_for(wanted) ? VK_TRUE : VK_FALSE;
@@ -307,13 +307,13 @@ void PairBuffers::record_move(VkhContext context, VkCommandBuffer commands, VkhP
   next_.reset();
 }
 
-ResidentMesh PairBuffers::take_resident(VkhContext context, const MeshData& b,
-                                        MemoryPolicy policy) {
+ResidentMesh PairBuffers::allocate_resident(VkhContext context, const MeshData& b,
+                                            MemoryPolicy policy) {
   const VkhHierarchyRequirements needed = hierarchy_for(context, counts_of(*b.mesh));
   place_meshes({}, b, policy);
   ResidentMesh resident{{}, mesh_b_.vertexCount, mesh_b_.faceCount};
-  resident.memory.take(device_, needed, policy);
-  take_buffer(workspace_, device_, needed.scratchSize, policy);
+  resident.memory.allocate(device_, needed, policy);
+  allocate_buffer(workspace_, device_, needed.scratchSize, policy);
   write_meshes({}, b);
   scratch_ = {workspace_.handle(), 0, workspace_.size()};
   taken_ = laid_ = {};
@@ -325,7 +325,7 @@ void PairBuffers::place_areas(const RunInput& in, RunOutput& out, MemoryPolicy p
   if (!in.coverage) return;
   out.areas.resize(2 * in.a.mesh->faces.size());
   const VkDeviceSize bytes = out.areas.size() * sizeof(uint64_t);
-  take_buffer(areas_, device_, bytes, policy);
+  allocate_buffer(areas_, device_, bytes, policy);
   grow(areas_readback_, device_, bytes, {VK_BUFFER_USAGE_TRANSFER_DST_BIT, Placement::kReadback});
 }
 
@@ -351,8 +351,9 @@ void PairBuffers::read(RunOutput& out) {
     std::memcpy(out.areas.data(), areas_readback_.mapped(), out.areas.size() * sizeof(uint64_t));
 }
 
-// The host writes the cells and reads the bounds, once: they need not be the device's own.
-VkhCells PairBuffers::take_cells(const CellBatch& batch) {
+// The host writes the cells and reads the bounds once, so they need not be in the device's own
+// memory.
+VkhCells PairBuffers::place_cells(const CellBatch& batch) {
   const auto count = static_cast<uint32_t>(batch.bounds.size());
   const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   grow(bounds_, device_, roomy(batch.bounds.size_bytes()), {usage, Placement::kReadback});
@@ -372,7 +373,7 @@ void PairBuffers::read_bounds(const CellBatch& batch) const {
   std::memcpy(batch.bounds.data(), bounds_.mapped(), batch.bounds.size_bytes());
 }
 
-VkhClosestQuery PairBuffers::take_points(const PointBatch& batch) {
+VkhClosestQuery PairBuffers::place_points(const PointBatch& batch) {
   const VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   grow(bounds_, device_, roomy(batch.found.size_bytes()), {usage, Placement::kReadback});
   grow(cells_, device_, roomy(batch.points.size_bytes()), {usage, Placement::kUpload});

@@ -20,7 +20,7 @@ struct MeshData {
   const StoragePlan* stored = nullptr;
 };
 
-/// The memory that a run may use: the device's own alone, or the host's as well, which the device
+/// The memory that a run may use: only the device's own, or the host's as well, which the device
 /// reads much more slowly.
 enum class MemoryPolicy { kDevice, kHost };
 
@@ -34,9 +34,10 @@ struct MemoryBudget {
 /// The ranges of memory of a BVH, each a buffer of its own.
 class HierarchyMemory {
  public:
-  /// Makes each as large as is needed, and no larger.
-  void take(const Device& device, const VkhHierarchyRequirements& needed, MemoryPolicy policy);
-  /// Makes each at least as large, with room for the next BVH; frees those that are not needed.
+  /// Allocates exactly the bytes that are needed.
+  void allocate(const Device& device, const VkhHierarchyRequirements& needed, MemoryPolicy policy);
+  /// Makes each range at least as large as needed, with room for the next BVH; frees the ranges
+  /// that are not needed.
   void grow(const Device& device, const VkhHierarchyRequirements& needed, MemoryPolicy policy,
             MemoryPool* pool);
   VkhHierarchy view() const;
@@ -62,17 +63,18 @@ struct RunInput {
   uint64_t start_memory_bytes = 0;         ///< 0: the recommended size
   uint32_t wave_limit = UINT32_MAX;
   bool multiwave = true;    ///< false: the host reads the report after every wave
-  VkhRunOptions options{};  ///< pauseWhenFull and what is of a buffer are the run's own
+  VkhRunOptions options{};  ///< the run sets pauseWhenFull and the members about buffers itself
   bool stage_times = true;  ///< false: only the stages "hierarchy" and "solve"
   bool coverage = false;    ///< record what was closed; `switches` has VKH_CONTEXT_COVERAGE too
   /// Called after each submission with the report so far; false ends the run.
   std::function<bool(const VkhReport&)> advanced;
-  /// Asked before each submission but the first, which is then short: the value of
-  /// `options.knownLower` from there on, if it is larger. Empty: it stays.
+  /// Called before each submission except the first, which is then short. Returns the value of
+  /// `options.knownLower` from there on, if it is larger. Empty: the value stays.
   std::function<float()> known_since;
-  /// The pair, if later runs may be of it; null: its buffers are the next one's.
+  /// The pair, if later runs may be of it; null: the next pair may overwrite its buffers.
   std::shared_ptr<const FramedPair> kept;
-  bool takes_begun = false;  ///< a run of it that lies there will do, however it ended
+  bool takes_begun = false;  ///< an earlier run of the pair that is still there may be used, no
+                             ///< matter how it ended
 };
 
 struct StageTime {
@@ -85,11 +87,12 @@ struct RunOutput {
   VkhStatistics statistics{};
   std::vector<StageTime> stages;  ///< one per timestamp interval, in order
   uint64_t workspace_bytes = 0;
-  uint64_t host_memory_bytes = 0;  ///< bytes in the host's memory, for want of room on the device
+  uint64_t host_memory_bytes = 0;  ///< bytes in the host's memory, since the device had no room
   /// If asked for: the closed part of each face of A, then the open part of each; 2^40 is a whole
   /// face.
   std::vector<uint64_t> areas;
-  double upload_ms = 0;  ///< host: buffers and copying into them; for all that were run at once
+  double upload_ms =
+      0;  ///< on the host: allocating buffers and copying into them, for all runs of a submission
 };
 
 class PairBuffers {
@@ -97,13 +100,13 @@ class PairBuffers {
   /// Takes memory from the pool, if there is one, which then outlives it.
   PairBuffers(const Device& device, MemoryPool* pool) : device_(device), pool_(pool) {}
 
-  /// Takes the pair: allocates its buffers and, if they are mapped, writes its meshes, unless it
-  /// lies there. Throws MemoryError if there is no room for it, DeviceError if the device cannot
-  /// have it.
+  /// Takes the pair: allocates its buffers and, if they are mapped, writes its meshes, unless the
+  /// pair is there already. Throws MemoryError if there is no room for it, DeviceError if the
+  /// device does not support it.
   void take(VkhContext context, const RunInput& input, RunOutput& output, MemoryBudget budget);
   /// Allocates and fills B's buffers, without A, and scratch for the build; returns the memory that
   /// its BVH will be built in.
-  ResidentMesh take_resident(VkhContext context, const MeshData& b, MemoryPolicy policy);
+  ResidentMesh allocate_resident(VkhContext context, const MeshData& b, MemoryPolicy policy);
 
   /// The problem as the library gets it. `mesh_b` and `scratch` are for building B's BVH; null if B
   /// is there.
@@ -114,19 +117,19 @@ class PairBuffers {
   /// The statistics' place behind the report, in the same buffer.
   static constexpr VkDeviceSize kStatisticsOffset = 128;
   static_assert(sizeof(VkhReport) <= kStatisticsOffset);
-  /// Whether a run that was read lies there, of the pair that was taken.
+  /// Whether the run that is there is of the pair that was taken, and was read.
   bool has_run() const { return laid_.context != nullptr; }
   bool has(const RunInput& input) const {
     return input.kept != nullptr && input.kept == laid_.pair && input.resident == laid_.resident;
   }
-  /// Whether some caller keeps the pair that lies there.
+  /// Whether some caller keeps the pair that is there.
   bool is_kept() const { return laid_.pair.use_count() > 1; }
 
   /// Copies the meshes to where the device reads them, unless they are there; the caller
   /// records a barrier to compute shaders.
   void record_upload(VkCommandBuffer commands) const;
-  /// Handles a run that pauses for want of room: takes memory for it, or lets it go on with what
-  /// there is, from the next record_move() on.
+  /// Handles a run that pauses because its workspace is full: allocates a larger one, or lets the
+  /// run go on in the present one, from the next record_move() on.
   void make_room(VkhContext context, RunOutput& output);
   /// Raises the run's known lower bound from the next record_move() on.
   void raise_known(float known_lower);
@@ -134,29 +137,29 @@ class PairBuffers {
   /// Copies the report, and the areas if there are any, back; the caller records barriers around
   /// it.
   void record_readback(VkCommandBuffer commands, const RunOutput& output) const;
-  /// Makes room for a batch, and copies its cells there. After the submission, read_bounds() reads
-  /// the cells' bounds.
-  VkhCells take_cells(const CellBatch& batch);
+  /// Makes room for a batch of cells and copies them to it. After the submission, read_bounds()
+  /// reads the cells' bounds.
+  VkhCells place_cells(const CellBatch& batch);
   void read_bounds(const CellBatch& batch) const;
   /// The same for points and their closest faces.
-  VkhClosestQuery take_points(const PointBatch& batch);
+  VkhClosestQuery place_points(const PointBatch& batch);
   void read_closest(const PointBatch& batch) const;
   /// Reads the results of the last submission.
   void read(RunOutput& output);
 
  private:
-  void take_meshes(VkDeviceSize bytes, MemoryPolicy policy);
+  void allocate_meshes(VkDeviceSize bytes, MemoryPolicy policy);
   void place_meshes(const MeshData& a, const MeshData& b, MemoryPolicy policy);
   void write_meshes(const MeshData& a, const MeshData& b);
   void place_b(const VkhHierarchyRequirements& needed, const RunInput& input, MemoryPolicy policy);
-  VkDeviceSize take_scarce_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize share,
-                                     bool given);
-  VkDeviceSize take_workspace(const VkhWorkspaceRequirements& needed, VkDeviceSize scratch,
-                              const RunInput& input, MemoryBudget budget);
+  VkDeviceSize allocate_scarce_workspace(VkDeviceSize bytes, VkDeviceSize least, VkDeviceSize share,
+                                         bool given);
+  VkDeviceSize allocate_workspace(const VkhWorkspaceRequirements& needed, VkDeviceSize scratch,
+                                  const RunInput& input, MemoryBudget budget);
   VkDeviceSize host_bytes(const RunInput& input) const;
   void set_problem(const RunInput& input, VkDeviceSize bytes, bool may_grow);
   void place_areas(const RunInput& input, RunOutput& output, MemoryPolicy policy);
-  VkhMemory take_room(VkDeviceSize bytes);
+  VkhMemory allocate_room(VkDeviceSize bytes);
 
   const Device& device_;
   MemoryPool* pool_;
@@ -167,8 +170,8 @@ class PairBuffers {
   // A run that paused goes on in `larger_`, if there was memory for it. If it pauses again and gets
   // more, `left_` is the `larger_` that it leaves, kept until that has been copied.
   Buffer larger_, left_;
-  // The memory in which the run goes on after the next record_move(), perhaps the one that it has;
-  // empty: none is recorded.
+  // The memory in which the run goes on after the next record_move(), which may be the present one;
+  // empty: no move is recorded.
   std::optional<VkhMemory> next_;
   VkDeviceSize uploaded_bytes_ = 0;
   struct Laid {
@@ -183,7 +186,7 @@ class PairBuffers {
   VkhMemory scratch_{};
 };
 
-/// Returns whether the context takes the pair, or the part of it that is given.
+/// Returns whether the context's device can bind the pair, or the one mesh of it that is given.
 bool fits_bindings(VkhContext context, const RunInput& input);
 
 /// Throws DeviceError that names `what` unless it is VKH_SUCCESS.

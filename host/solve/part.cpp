@@ -72,7 +72,7 @@ size_t block_of_turns(size_t faces, size_t count) {
   return std::clamp<size_t>(faces / count / kTurns, 1, kLargest);
 }
 
-// Sets what depends on all of A, and is unknown to a part.
+// Sets the options that depend on all of A, which a part does not know.
 SolveOptions options_of_part(const SolveOptions& options, const Diagonal& of_a) {
   SolveOptions out = options;
   const double tolerance = multiply_down(options.tolerance, of_a.least());

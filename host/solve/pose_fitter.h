@@ -21,7 +21,7 @@ struct Pose {
 struct FitFrame {
   glm::dvec3 centre_a{}, centre_b{};
   double size = 1;    ///< root mean square distance of B's points from their centre
-  double nearby = 0;  ///< a distance that is a rounding: it has no direction
+  double nearby = 0;  ///< a distance so small that it is a rounding and has no direction
 };
 
 /// A pose, and how far A's samples are from B there.
@@ -29,16 +29,16 @@ struct Candidate {
   Pose pose;
   double trimmed = std::numeric_limits<double>::infinity();  ///< rms of the nearest 80 %
   double used = std::numeric_limits<double>::infinity();     ///< rms of the samples that count
-  double share = 0;                                          ///< of the samples: those that count
-  /// Rms of all, none farther than a twentieth of the size. It ranks: what a part lacks or has too
-  /// much is among the farthest samples.
+  double share = 0;  ///< the share of the samples that count
+  /// Rms of all, none farther than a twentieth of the size. Candidates are ranked by it: samples
+  /// where a part lacks something, or has too much, are among the farthest.
   double capped = std::numeric_limits<double>::infinity();
   bool is_settled = false;
 };
 
 enum class Counting {
   kNearest,  ///< the nearest 80 % of the samples
-  kNoise,    ///< those within three deviations, as the median tells them
+  kNoise,    ///< the samples within three deviations, which are estimated by the median
 };
 
 struct FitStage {

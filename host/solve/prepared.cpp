@@ -7,12 +7,12 @@
 namespace vkh {
 namespace {
 
-// A BVH takes 200 to 258 bytes a face; a small one takes what an allocation costs.
+// A BVH takes 200 to 258 bytes a face; a small one takes the least bytes of an allocation.
 uint64_t device_bytes(const Mesh& b) {
   return std::max<uint64_t>(260 * b.faces.size(), uint64_t{1} << 20);
 }
 
-// Each is an allocation or more, and some drivers give out 4096 in all.
+// Each mesh takes one allocation or more, and some drivers allow 4096 in all.
 constexpr size_t kMost = 256;
 
 }  // namespace

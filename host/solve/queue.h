@@ -12,7 +12,7 @@
 
 namespace vkh {
 
-/// A pair, and how often it was on a device that was lost meanwhile.
+/// A pair, and how many devices were lost while they ran it.
 struct WaitingPair {
   StreamPair pair;
   unsigned tries = 0;
@@ -29,8 +29,8 @@ class PairQueue {
   void put_back(std::vector<WaitingPair> pairs);
 
   /// Takes the oldest pair, and with it others of like size: at most `most`, which take at most
-  /// `bytes` of a device. Waits for one; empty: there are none, nor will there be. A caller that
-  /// takes some calls done().
+  /// `bytes` of a device. Waits for a pair; returns none if there will be none any more. A caller
+  /// that took pairs calls done().
   std::vector<WaitingPair> take(size_t most, uint64_t bytes);
   void done(size_t pairs);
 

@@ -11,8 +11,8 @@ namespace {
 
 /// The status of the direction that keeps a symmetric interval open: the one with the larger upper.
 Status open_status(const Report& r, const Report& back) {
-  // If pruned by the forward direction (not by what a caller knew besides), the reverse one decides
-  // nothing.
+  // If the forward direction pruned it (and not a bound that a caller knew), the reverse direction
+  // decides nothing.
   const bool pruned =
       back.status == Status::kPruned && is_within(r.lower, back.upper, back.tolerance);
   const bool back_closed = back.status == Status::kClosed || pruned;
@@ -81,8 +81,8 @@ CertifiedInterval symmetric_interval(const Report& r, const Report& back) {
   both.lower = std::max(r.lower, back.lower);
   both.upper = std::max(r.upper, back.upper);
   both.gap = gap_of(both.lower, both.upper, r.diagonal_a);
-  // Two closed directions of one tolerance close the whole, and so does one that the other cannot
-  // reach: the width shows it.
+  // The whole is closed if both directions are closed with one tolerance, or if one is and the
+  // other cannot reach it: the width shows either.
   const double tolerance = std::min(r.tolerance, back.tolerance);
   const bool closed = is_within(both.lower, both.upper, tolerance);
   both.status = closed ? Status::kClosed : open_status(r, back);

@@ -17,7 +17,7 @@ namespace {
 
 // Waves of the first submission, the begin's among them: enough for most pairs on a GPU; on a CPU
 // one wave can take seconds, and so can the BVH, which is then a submission of its own. A run that
-// shares its known bound has something to report after one wave.
+// shares its known bound makes one wave first, since it then has something to report.
 constexpr uint32_t kFirstWaves = 8;
 constexpr uint32_t kFewFirstWaves = 1;
 // Later submissions aim at this long, so that budgets and Ctrl-C take effect. An empty wave costs
@@ -39,7 +39,8 @@ double now_ms() {
   return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
 }
 
-// Makes what one stage wrote visible to the next: copies before and after the engine's commands.
+// Makes the writes of one stage visible to the next: of copies before and after the engine's
+// commands.
 void full_barrier(const VulkanApi& vk, VkCommandBuffer commands, VkPipelineStageFlags to) {
   VkMemoryBarrier barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
@@ -94,31 +95,24 @@ VkhContext Runner::context_for(uint32_t switches, std::span<const RunInput> inpu
                                           : contexts_->get(switches | kSwitchByAddress, use);
 }
 
-// Pair buffers are kept for reuse, unless there is no memory beside those of an earlier run, or
-// they lie in the host's.
-void Runner::buffers(size_t count, const std::function<void(MemoryPolicy)>& take) {
+// Calls `allocate` with as many pair buffers as are asked for. They are kept for reuse, unless the
+// buffers of an earlier run leave too little memory, or are in the host's memory.
+void Runner::with_buffers(size_t count, const std::function<void(MemoryPolicy)>& allocate) {
   if (policy_ == MemoryPolicy::kHost) buffers_.clear();
-  const bool has_kept = !buffers_.empty();
-  const auto try_with = [&](MemoryPolicy policy) {
+  std::vector<MemoryPolicy> policies{MemoryPolicy::kDevice, MemoryPolicy::kHost};
+  if (!buffers_.empty()) policies.insert(policies.begin(), MemoryPolicy::kDevice);
+  for (const MemoryPolicy policy : policies) {
     policy_ = policy;
     MemoryPool* const pool = count > 1 && policy == MemoryPolicy::kDevice ? &pool_ : nullptr;
     while (buffers_.size() < count)
       buffers_.push_back(std::make_unique<PairBuffers>(device_, pool));
-    take(policy);
-  };
-  try {
-    return try_with(MemoryPolicy::kDevice);
-  } catch (const MemoryError&) {
-    buffers_.clear();
-  }
-  if (has_kept) {
     try {
-      return try_with(MemoryPolicy::kDevice);
+      return allocate(policy);
     } catch (const MemoryError&) {
+      if (policy == MemoryPolicy::kHost) throw;
       buffers_.clear();
     }
   }
-  try_with(MemoryPolicy::kHost);
 }
 
 VkCommandBuffer Runner::begin() {
@@ -143,8 +137,9 @@ ResidentMesh Runner::build(const MeshData& b) {
   alone[0].b = b;
   context_ = context_for(default_switches(device_), alone, ContextUse::kHierarchy);
   ResidentMesh resident;
-  buffers(1,
-          [&](MemoryPolicy policy) { resident = buffers_[0]->take_resident(context_, b, policy); });
+  with_buffers(1, [&](MemoryPolicy policy) {
+    resident = buffers_[0]->allocate_resident(context_, b, policy);
+  });
   VkhHierarchy hierarchy = resident.memory.view();
   const VkCommandBuffer commands = begin();
   buffers_[0]->record_upload(commands);
@@ -173,7 +168,7 @@ void Runner::record_one(VkCommandBuffer commands, const Submission& submission) 
   if (submission.waves == 0) return;
   if (submission.begins) vkhCmdBegin(context_, commands, &problem, profile());
   const uint32_t waves =
-      submission.begins ? submission.waves - 1 : submission.waves;  // the begin has one
+      submission.begins ? submission.waves - 1 : submission.waves;  // the begin makes one wave
   vkhCmdAdvance(context_, commands, &problem, waves, profile());
   // A task's statistics wait for its waves alone, and are copied beside the report's dispatch.
   VkhTask output{};
@@ -234,8 +229,9 @@ void Runner::read_stages(const Submission& submission, std::vector<RunOutput>& o
   }
 }
 
-// Finds each pair its buffers: those in which it lies, if there are any, and none in which another
-// one lies that is kept, if two are enough for that: of a pair both ways, each has its own.
+// Finds buffers for each pair. If the pair is on the device already, it gets the buffers that it is
+// in. Otherwise it gets buffers without a kept pair, as long as two suffice: the two directions of
+// a pair each have their own.
 void Runner::arrange(std::span<const RunInput> inputs) {
   constexpr size_t kDirections = 2;
   for (size_t i = 0; i < inputs.size() && inputs[i].kept != nullptr; ++i) {
@@ -254,17 +250,18 @@ void Runner::arrange(std::span<const RunInput> inputs) {
   }
 }
 
-// Takes memory in order, since it may be scarce: which pair gets what must not depend on threads.
-void Runner::take_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
+// Allocates in the order of the pairs if memory is scarce: which pair gets what must not depend on
+// threads.
+void Runner::allocate_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
   const VkDeviceSize share = device_.description().memory_bytes / 4 / inputs.size();
-  buffers(inputs.size(), [&](MemoryPolicy policy) {
+  with_buffers(inputs.size(), [&](MemoryPolicy policy) {
     arrange(inputs);
-    const auto take = [&](size_t i) {
+    const auto allocate = [&](size_t i) {
       buffers_[i]->take(context_, inputs[i], outputs[i], {policy, share});
     };
     if (policy == MemoryPolicy::kDevice)
-      return for_each_index(inputs.size(), take, threads_for(bytes_of(inputs)));
-    for (size_t i = 0; i < inputs.size(); ++i) take(i);
+      return for_each_index(inputs.size(), allocate, threads_for(bytes_of(inputs)));
+    for (size_t i = 0; i < inputs.size(); ++i) allocate(i);
   });
 }
 
@@ -281,7 +278,7 @@ double Runner::submit(const Submission& submission, std::vector<RunOutput>& outp
 
 void Runner::bound_cells(PairBuffers& buffers, const CellBatch& batch) {
   if (batch.bounds.empty()) return;
-  const VkhCells cells = buffers.take_cells(batch);
+  const VkhCells cells = buffers.place_cells(batch);
   const VkCommandBuffer commands = begin();
   vkhCmdBoundCells(context_, commands, &buffers.problem(), &cells, nullptr);
   full_barrier(device_.vk(), commands, VK_PIPELINE_STAGE_HOST_BIT);
@@ -308,7 +305,7 @@ void Runner::hold(std::span<const RunInput> inputs, const UseHeld& use) {
   context_ = context_for(inputs[0].switches, inputs);
   stage_times_ = false;
   std::vector<RunOutput> outputs(inputs.size());
-  take_buffers(inputs, outputs);
+  allocate_buffers(inputs, outputs);
   survey_buffers_.resize(std::max(survey_buffers_.size(), inputs.size()));
   std::vector<HeldPair> pairs;
   for (size_t i = 0; i < inputs.size(); ++i) {
@@ -336,7 +333,7 @@ void Runner::find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBa
   context_ =
       context_for(default_switches(device_) | VKH_CONTEXT_CLOSEST, alone, ContextUse::kHierarchy);
   VkhClosestQuery query{};
-  buffers(1, [&](MemoryPolicy) { query = buffers_[0]->take_points(batch); });
+  with_buffers(1, [&](MemoryPolicy) { query = buffers_[0]->place_points(batch); });
   const VkhHierarchy hierarchy = b.view();
   const VkCommandBuffer commands = begin();
   vkhCmdFindClosest(context_, commands, &hierarchy, &query, nullptr);
@@ -346,7 +343,7 @@ void Runner::find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBa
 }
 
 // On a CPU the BVH of B can take seconds. It is a submission of its own, without waves, so that the
-// caller is asked between it and the first wave and may end the run there: false.
+// caller may end the run between it and the first wave: then this returns false.
 bool Runner::build_first(std::span<const RunInput> inputs, Submission& submission,
                          std::vector<RunOutput>& outputs) {
   const size_t i = submission.running[0];
@@ -366,7 +363,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   context_ = context_for(inputs[0].switches, inputs);
   stage_times_ = inputs[0].stage_times && inputs.size() == 1;
   const double start = now_ms();
-  take_buffers(inputs, outputs);
+  allocate_buffers(inputs, outputs);
   for (RunOutput& output : outputs) {
     output.upload_ms = now_ms() - start;
     output.report = nothing_known();
@@ -388,7 +385,8 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
   uint32_t submissions = 0;
   while (!submission.running.empty()) {
     if (!inputs[0].multiwave) submission.waves = 1;
-    // The budget is met exactly: how waves are grouped depends on the clock, the result must not.
+    // The budget of waves is met exactly: how waves are grouped depends on the clock, but the
+    // result must not.
     for (const size_t i : submission.running)
       submission.waves =
           std::min(submission.waves, std::max(inputs[i].wave_limit, 1u) - outputs[i].report.waves);

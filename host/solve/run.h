@@ -33,9 +33,10 @@ class Runner {
   /// switches, `multiwave` and `stage_times`. Several runs have one stage, "solve", for all of them
   /// and their BVHs.
   std::vector<RunOutput> run(std::span<const RunInput> inputs);
-  /// Uploads the pairs, builds what is not resident, makes each run's first wave, unless a run that
-  /// will do lies there, and calls `use` while they lie there. They have the same switches,
-  /// VKH_CONTEXT_CELLS among them. Does not call it if RunInput::advanced of one says no.
+  /// Uploads the pairs, builds what is not resident, makes the first wave of each run unless a
+  /// usable run is there already, and calls `use` while the pairs are on the device. They have the
+  /// same switches, including VKH_CONTEXT_CELLS. Does not call it if RunInput::advanced of a pair
+  /// returns false.
   void hold(std::span<const RunInput> inputs, const UseHeld& use);
   /// Finds the faces of B that are closest to points; `mesh` is B.
   void find_closest(const Mesh& mesh, const ResidentMesh& b, const PointBatch& batch);
@@ -45,8 +46,8 @@ class Runner {
   VkhContext context_for(uint32_t switches, std::span<const RunInput> inputs,
                          ContextUse use = ContextUse::kRun);
   void arrange(std::span<const RunInput> inputs);
-  void take_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs);
-  void buffers(size_t count, const std::function<void(MemoryPolicy)>& take);
+  void allocate_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs);
+  void with_buffers(size_t count, const std::function<void(MemoryPolicy)>& allocate);
   VkCommandBuffer begin();
   VkhProfile* profile() { return stage_times_ && device_.has_timestamps() ? &profile_ : nullptr; }
   void stamp(VkCommandBuffer commands, const char* name);

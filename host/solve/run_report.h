@@ -1,4 +1,4 @@
-// Writes what a run did and where it found its witness into a report.
+// Fills in a report: what a run did, and where it found its witness.
 #pragma once
 
 #include "host/solve/run.h"
@@ -7,14 +7,15 @@
 
 namespace vkh {
 
-/// A report of what is asked, before the run.
+/// The report before the run, which has only the question.
 Report report_on(const Mesh& a, const Mesh& b, const SolveOptions& options);
-/// The status that a report's interval gives it, whatever ended the run; nothing: it is open.
+/// The status that follows from a report's interval, no matter what ended the run; nothing: it is
+/// open.
 std::optional<Status> reached_by(const Report& r);
 
-/// Whether every face of A, as given, is a face of B, so that h is 0 whatever a run found. A mesh
-/// that is off its exact place does not count as given. False, too, if there is no memory to tell:
-/// the answer that there is must not be lost to this.
+/// Whether every face of A, as given, is a face of B, so that h is 0 even if a run found more. A
+/// mesh that is off its exact place does not count as given. Also false if there is not enough
+/// memory to find out: that must not cost the answer.
 bool is_within_faces_of(const Mesh& a, const Mesh& b);
 
 void fill_counts(const RunOutput& r, const Frame& frame, Report& out);

@@ -31,8 +31,8 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Only the displacement by storing may be left, where the device found the stored meshes' h to be
-// 0.
+// Whether the device found the stored meshes' h to be 0, so that at most the displacement by
+// storing is left.
 bool is_surely_zero(const VkhReport& r, const Pair& pair) {
   const bool is_zero_as_stored = r.base == 0 && r.upperAbove == 0 && pair.displacement > 0;
   return is_zero_as_stored && is_within_faces_of(pair.a, pair.b);
@@ -155,7 +155,7 @@ SurveyedPair surveyed(const Pair& pair, const HeldPair& held, bool on_cpu) {
 }
 
 Report report_of(const RunOutput& run, const Watch& watch) {
-  if (run.report.status == VKH_STATUS_INPUT)  // check_mesh and the frame leave nothing to find
+  if (run.report.status == VKH_STATUS_INPUT)  // cannot happen after check_mesh and the frame
     throw InputError("the device says that a mesh is none (VKH_STATUS_INPUT)");
   const Pair& pair = watch.pair;
   const SolveOptions& options = pair.options;
@@ -188,7 +188,7 @@ void check_options(const SolveOptions& options) {
 }
 
 // Runs the caller's callbacks in the caller's own floating-point environment.
-SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
+SolveOptions in_callers_environment(SolveOptions options, FloatEnvironment& ours) {
   if (!options.progress) return options;
   options.progress = [&ours, listen = std::move(options.progress)](const Progress& progress) {
     return ours.outside([&] { return listen(progress); });
@@ -196,7 +196,7 @@ SolveOptions heard_outside(SolveOptions options, FloatEnvironment& ours) {
   return options;
 }
 
-ClosestGoesOn heard_outside(const ClosestGoesOn& goes_on, FloatEnvironment& ours) {
+ClosestGoesOn in_callers_environment(const ClosestGoesOn& goes_on, FloatEnvironment& ours) {
   if (!goes_on) return {};
   return [&ours, goes_on](size_t done) { return ours.outside([&] { return goes_on(done); }); };
 }
@@ -234,7 +234,7 @@ std::vector<Report> Solver::Impl::solve_with_switches(const std::vector<Pair>& p
   return reports;
 }
 
-// Pairs with the same switches run side by side: which these are depends on each pair alone, so
+// Pairs with the same switches run side by side. A pair's switches depend on that pair alone, so
 // that an answer does not depend on the pairs beside it.
 std::vector<Report> Solver::Impl::solve(const std::vector<Pair>& pairs, Clock::time_point start) {
   std::map<uint32_t, std::vector<size_t>> alike;
@@ -258,13 +258,13 @@ void Solver::make_ready(const EngineOptions& options) {
 
 namespace {
 
-// The frame that the pair was given, or that an earlier call left.
+// The frame that came with the pair, or that an earlier call left.
 const FramedPair* known_frame(const PairView& m) {
   return m.kept != nullptr && *m.kept != nullptr ? m.kept->get() : m.framed;
 }
 
-// Checks each mesh once: many pairs may have one B. A prepared one was checked when it was
-// prepared, and those of a framed pair before.
+// Checks each mesh once: many pairs may have one B. A prepared mesh was checked when it was
+// prepared, and the meshes of a framed pair before.
 void check_meshes(std::span<const PairView> pairs) {
   std::set<const Mesh*> meshes;
   for (const PairView& pair : pairs) {
@@ -275,7 +275,7 @@ void check_meshes(std::span<const PairView> pairs) {
   for (const Mesh* mesh : meshes) check_mesh(*mesh);
 }
 
-// A caller's pair as it is stored, in a frame around both or in that of a prepared B.
+// A caller's pair as it is stored: in a frame around both meshes, or in that of a prepared B.
 struct Framed {
   KeptPair pair;
   const KeptMesh* kept = nullptr;  // B's, if it is prepared and its frame serves A
@@ -293,7 +293,8 @@ Framed framed_alone(const PairView& m) {
   return {.pair = shared_frame(m, [&] { return frame_pair(m.a, m.b); })};
 }
 
-// Nothing if B's frame does not serve A. A pair that was framed before is in that frame if it does.
+// Returns nothing if B's frame does not serve A. If it does, a pair that was framed before is in
+// it.
 std::optional<Framed> framed_by(const KeptMesh& kept, const PairView& m) {
   const FramedPair* const known = known_frame(m);
   const Box box_a = known != nullptr ? known->box_a : bounding_box(m.a);
@@ -366,7 +367,7 @@ std::vector<Report> Solver::Impl::distances(std::span<const PairView> views,
   return reports;
 }
 
-// The kernels of cells are the same whatever a run's switches are: the first pair's serve all.
+// The kernels of cells do not depend on a run's switches: the first pair's serve all.
 void Solver::Impl::hold(std::span<const PairView> views, const std::vector<SolveOptions>& options,
                         const UsePairs& use) {
   check_meshes(views);
@@ -405,7 +406,7 @@ std::vector<SolveOptions> options_of(std::span<const PairView> pairs, const Solv
   for (const PairView& pair : pairs) {
     const SolveOptions& own = pair.options != nullptr ? *pair.options : options;
     check_options(own);
-    all.push_back(heard_outside(own, ours));
+    all.push_back(in_callers_environment(own, ours));
   }
   return all;
 }
@@ -446,7 +447,7 @@ ClosestPoints Solver::closest(const PreparedMesh& b, std::span<const DVec3> poin
                               const ClosestGoesOn& goes_on) {
   FloatEnvironment ours;
   const PreparedMesh::Impl& kept = *b.impl_;
-  const ClosestQuestion question{points, heard_outside(goes_on, ours)};
+  const ClosestQuestion question{points, in_callers_environment(goes_on, ours)};
   if (native_ != nullptr) return native_->closest(kept, question);
   return find_closest_points(impl_->runner,
                              {.mesh = kept.mesh,
@@ -461,7 +462,7 @@ ClosestPoints Solver::closest(const Mesh& b, std::span<const DVec3> points,
                               const ClosestGoesOn& goes_on) {
   FloatEnvironment ours;
   check_mesh(b);
-  const ClosestQuestion question{points, heard_outside(goes_on, ours)};
+  const ClosestQuestion question{points, in_callers_environment(goes_on, ours)};
   if (native_ != nullptr) return native_->closest(native_->kept(b), question);
   const FramedMesh framed = frame_mesh(b);
   Runner& runner = impl_->runner;
@@ -506,7 +507,7 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
     both[i].a_to_b = std::move(there[i]);
     const double limit = heard[i].limit.beyond;
     if (limit > 0 && both[i].a_to_b.lower > limit) {
-      both[i].b_to_a = unsought_back(a, b, both[i].a_to_b);
+      both[i].b_to_a = unsearched_back(a, b, both[i].a_to_b);
       continue;
     }
     sought.push_back(i);

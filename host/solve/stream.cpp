@@ -20,16 +20,15 @@ double seconds_from(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Devices are opened and taken apart one at a time: drivers share state that is theirs. None is
-// taken apart while a thread ends that has used a driver: NVIDIA's (580.159.04) then may wait for
-// itself forever, as the thread's own data of the driver goes.
+// Devices are opened and destroyed one at a time, since drivers have state that devices share. None
+// is destroyed while a thread ends that has used a driver: NVIDIA's (580.159.04) may then deadlock
+// with the destruction of the thread's data.
 std::mutex& opening() {
   static auto* mutex = new std::mutex;
   return *mutex;
 }
 
-/// Holds a device, which is opened and taken apart again one after the other with others; none for
-/// kNative.
+/// Holds a device. Devices are opened and destroyed one after the other. Holds none for kNative.
 class OpenDevice {
  public:
   explicit OpenDevice(const std::string& selector) {
@@ -53,12 +52,12 @@ class OpenDevice {
   std::unique_ptr<Device> device_;
 };
 
-// A device that is lost again and again without an answer between is not opened any more.
+// A device that is lost this many times without an answer in between is not opened again.
 constexpr int kMostReopened = 3;
 
 }  // namespace
 
-// Assumes GPUs, which take most: 3 workers of 16 pairs.
+// Assumes GPUs, which run the most pairs: 3 workers with 16 each.
 size_t StreamOptions::most_waiting() const {
   if (waiting != 0) return waiting;
   const size_t workers = lanes != 0 ? lanes : 3;
@@ -112,7 +111,7 @@ struct PairStream::Impl {
                        ", is named more than once");
   }
 
-  // Runs one life of a device: until nothing waits (true), or it is lost.
+  // Runs a device until nothing waits, which returns true, or until it is lost.
   bool live(const std::string& selector, bool& was_open) {
     auto open = std::make_unique<OpenDevice>(selector);
     if (!work_on(*open, was_open)) return false;
@@ -149,8 +148,8 @@ struct PairStream::Impl {
     return !lanes.is_lost;
   }
 
-  // A device that was asked for and is not available ends all; one that is lost later leaves the
-  // rest to others.
+  // A device that was asked for and is not available ends the stream; one that is lost later leaves
+  // the rest to the others.
   void serve(const std::string& selector) {
     const FloatEnvironment ours;
     size_t before = 0;
@@ -233,7 +232,7 @@ bool PairStream::push(StreamPair pair) {
 
 void PairStream::wait_until_open() { impl_->wait_for_devices(); }
 
-// Devices are taken apart later: results that were delivered need not wait for that.
+// Devices are destroyed later: delivered results need not wait for that.
 void PairStream::finish() {
   impl_->queue.end();
   impl_->queue.wait();

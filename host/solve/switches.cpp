@@ -22,7 +22,7 @@ constexpr NamedSwitch kSwitches[] = {
     {"multiwave", kSwitchMultiwave}};
 
 // The paper's baseline (docs/method.md, section 10): its cascade without what the paper adds to it.
-// The bounds are certified all the same, and a point of A is queried once, where the paper queries
+// Its bounds are certified, too, and a point of A is queried once, where the paper queries
 // the three corners of each child: up to four times as many queries as ours.
 constexpr uint32_t kBaseline = VKH_SWITCH_U3_PAPER | VKH_SWITCH_U4;
 // The paper's method. Traversals start from what the candidate knows, since its worklist holds the

@@ -12,14 +12,14 @@
 
 namespace vkh {
 
-/// Runs several waves per submission. It is no stage of the engine but host/solve/run.cpp's, so its
-/// bit is not one of VkhSwitchBits.
+/// Runs several waves per submission. host/solve/run.cpp does this, and not the engine, so its bit
+/// is not one of VkhSwitchBits.
 constexpr uint32_t kSwitchMultiwave = 1u << 31;
 /// The device is of VKH_DEVICE_KIND_WIDE, otherwise NARROW.
 constexpr uint32_t kSwitchWide = 1u << 29;
 /// VKH_CONTEXT_BY_ADDRESS: for meshes that the device cannot bind.
 constexpr uint32_t kSwitchByAddress = VKH_CONTEXT_BY_ADDRESS;
-/// The bits that a context takes as flags.
+/// The bits that are flags of a context.
 constexpr uint32_t kContextFlags = VKH_CONTEXT_COVERAGE | VKH_CONTEXT_CELLS | VKH_CONTEXT_FINE |
                                    VKH_CONTEXT_CLOSEST | VKH_CONTEXT_BY_ADDRESS;
 

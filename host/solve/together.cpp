@@ -52,9 +52,9 @@ class Together {
   Report run() {
     work_off();
     Report all = joined();
-    // The bound that a part was given may be more than the witness of the end shows: by a rounding,
-    // or because the device that had proven it was lost. The part is then given the latter, and
-    // goes on from there.
+    // The bound that a part was given may be larger than the final witness proves: by a rounding,
+    // or because the device that had proven it was lost. The part is then given the smaller one,
+    // and goes on from there.
     if (may_still_close(all)) {
       for (PartState& part : parts_) part.proven = 0;
       options_.known_lower = std::max(options_.known_lower, all.lower);
@@ -69,8 +69,8 @@ class Together {
  private:
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// Solves every part that waits, on every device that is there. Throws the last one's error if it
-  /// leaves a part without an answer.
+  /// Solves every waiting part, on every device that is left. Throws the last device's error if a
+  /// part has no answer.
   void work_off() {
     for_each_index(
         solvers_.size(), [&](size_t i) { work(i); }, solvers_.size());
@@ -81,8 +81,7 @@ class Together {
     waiting_.clear();
   }
 
-  /// Runs one device: part after part, until none is waiting and none is left that could be given
-  /// back.
+  /// Runs one device: part after part, until none is waiting and none can be given back any more.
   void work(size_t device) {
     std::unique_lock lock(mutex_);
     while (!lost_[device]) {
@@ -192,7 +191,7 @@ class Together {
     return all;
   }
 
-  /// Makes every part wait that stopped at what others had proven, and not at what is proven now.
+  /// Makes every part wait again that stopped at a bound which is no longer proven.
   bool may_still_close(const Report& all) {
     if (all.status == Status::kClosed || is_over_ || options_.time_limit_s <= elapsed_s())
       return false;

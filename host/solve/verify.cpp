@@ -34,7 +34,7 @@ Float128Vector from_segment(const Float128Vector& p, const Float128Vector& s,
   return r - t * e;
 }
 
-// p minus a closest point of the triangle, but for rounding: only a direction.
+// p minus a closest point of the triangle, rounded: only its direction is used.
 Float128Vector offset_of(const Float128Vector& p, const Triangle& t) {
   const auto& [a, b, c] = t.corner;
   Float128Vector best = from_segment(p, a, b - a);
@@ -136,7 +136,7 @@ WitnessCheck verify_witness(const Mesh& a, const Mesh& b, const Report& report) 
   out.holds = true;
   for (const glm::uvec3& f : b.faces) {
     const std::array<glm::dvec3, 3> t = {b.vertices[f.x], b.vertices[f.y], b.vertices[f.z]};
-    // Such a face is farther than one that was measured: it decides nothing.
+    // Skips a face whose box is farther than a face that was measured.
     if (box_distance_down(near, t, scale) > out.distance_upper) continue;
     const DistanceBounds d = distance_to(p, {{float128(t[0]), float128(t[1]), float128(t[2])}},
                                          float128(scale), report.lower);

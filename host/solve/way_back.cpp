@@ -9,10 +9,10 @@
 namespace vkh {
 
 // The reverse direction has the forward direction's tolerance, which is a fraction of A's diagonal,
-// and what is left of the time: the forward one had half of it. A run cannot be taken up again, so
-// that what the reverse direction leaves in its turn would be of no use to the forward one, which
-// would need more than its half again. Every candidate whose u is within the tolerance of the
-// forward direction's lower bound can be closed: max(h(A,B), h(B,A)) is no smaller than that bound.
+// and what is left of the time: the forward one had half of it. A run cannot be resumed, so time
+// that the reverse direction leaves would not help the forward one, which would need more than its
+// half again. Every candidate whose u is within the tolerance of the forward direction's lower
+// bound can be closed: max(h(A,B), h(B,A)) is no smaller than that bound.
 SolveOptions options_back(const SolveOptions& options, const Report& there, double elapsed_s) {
   constexpr double kLeastTime = 1e-3;  // even a spent budget buys a first, true interval
   SolveOptions back = options;
@@ -29,7 +29,7 @@ SolveOptions options_back(const SolveOptions& options, const Report& there, doub
   return back;
 }
 
-Report unsought_back(const Mesh& a, const Mesh& b, const Report& there) {
+Report unsearched_back(const Mesh& a, const Mesh& b, const Report& there) {
   Report back;
   back.status = Status::kLimit;
   const Box box_b = bounding_box(b);

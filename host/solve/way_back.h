@@ -10,7 +10,8 @@ namespace vkh {
 /// `options`.
 SolveOptions options_back(const SolveOptions& options, const Report& there, double elapsed_s);
 
-/// The reverse report if the forward direction has decided the limit: true, and nothing was sought.
-Report unsought_back(const Mesh& a, const Mesh& b, const Report& there);
+/// The reverse report if the forward direction has decided the limit: a true interval, without a
+/// search.
+Report unsearched_back(const Mesh& a, const Mesh& b, const Report& there);
 
 }  // namespace vkh

@@ -25,7 +25,8 @@ void check_meshes(const StreamPair& pair) {
                      " of a stream: two meshes are needed, not null");
 }
 
-// A pair that was on two devices, or twice on one, when they were lost is taken for the reason.
+// If two devices, or one device twice, were lost while they ran a pair, the pair is assumed to be
+// the cause.
 constexpr unsigned kMostTries = 2;
 
 }  // namespace
@@ -50,7 +51,8 @@ LaneShape shape_for(const StreamOptions& options, const DeviceDescription& devic
 void Worker::work() {
   for (;;) {
     Group group = share_.queue.take(device_.shape.together, device_.shape.bytes);
-    if (device_.is_lost) {  // pairs that another worker gave back are for another life
+    if (device_
+            .is_lost) {  // pairs that another worker gave back wait until the device is open again
       share_.queue.put_back(std::move(group));
       return;
     }
@@ -84,7 +86,7 @@ void Worker::solve_all(Group& group) {
       p.pair = pair.number;
       return !share_.is_cancelled && (!pair.options.progress || pair.options.progress(p));
     };
-    // Without room for a prepared B the pair is in no frame of B's.
+    // Without room for a prepared B the pair is not in B's frame.
     const bool is_framed = one.framed && (!one.pair.shares_b || prepared[i] != nullptr);
     views.push_back({.a = *one.pair.a,
                      .b = *one.pair.b,
@@ -124,7 +126,7 @@ void Worker::give_up(const WaitingPair& one) {
   share_.queue.done(1);
 }
 
-// Pairs that were too much together may fit alone, and one pair's error is not the others' fault.
+// Pairs that were too large together may fit alone, and one pair's error must not end the others.
 bool Worker::retry_apart(Group group) {
   for (size_t i = 0; i < group.size(); ++i) {
     Group one;

@@ -26,7 +26,8 @@ struct LaneShape {
 };
 LaneShape shape_for(const StreamOptions& options, const DeviceDescription& device);
 
-/// The state that workers of one device share: it is opened anew when all have ended.
+/// The state that the workers of one device share. A lost device is opened again when all of them
+/// have ended.
 struct WorkerDevice {
   const Device* device;  ///< null: the processor alone
   PreparedMeshes prepared;
@@ -34,7 +35,7 @@ struct WorkerDevice {
   std::atomic<bool> is_lost = false;
 };
 
-/// Works until nothing waits, or the device is lost: then its pairs are back in the queue.
+/// Works until nothing waits, or until the device is lost: then its pairs go back to the queue.
 class Worker {
  public:
   Worker(WorkerShare& share, WorkerDevice& device, Solver& solver)
