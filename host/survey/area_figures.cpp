@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kCurveSteps = 100;
 
-// Puts all that the figures of a surface need into one tally, and finds the answers in it.
+// Asks for everything that the figures of a surface need in one tally, and finds the answers in it.
 class Questions {
  public:
   Questions(const FiguresAsked& asked, bool has_curve) : asked_(asked) {
@@ -53,8 +53,8 @@ class Questions {
   static Enclosure kept(const Tallied& all) { return all.shares.back(); }
 
  private:
-  // All area is within a distance that none exceeds: by the threshold, which displacement moves,
-  // only nearly all may be.
+  // All area is within a distance that no point exceeds. The tally may show only nearly all area
+  // there, since displacement moves its threshold.
   AreaWithin within(double distance, const Enclosure& share) const {
     return {distance, distance >= asked_.largest ? Enclosure{1, 1} : share};
   }
@@ -65,8 +65,8 @@ class Questions {
   size_t curve_ = 0;
 };
 
-// A larger share is reached no nearer: each end follows from the others', too, which were sought
-// apart.
+// A larger share needs at least the same distance. So each end also follows from the others', which
+// were sought separately.
 void put_in_order(std::span<const double> shares, std::span<Enclosure> at) {
   for (size_t i = 0; i < at.size(); ++i) {
     for (size_t j = 0; j < at.size(); ++j) {
@@ -77,7 +77,7 @@ void put_in_order(std::span<const double> shares, std::span<Enclosure> at) {
   }
 }
 
-// Percentiles that have no goal are as wide as what was asked for others leaves them.
+// Percentiles without a goal are as wide as the goals of other figures leave them.
 std::vector<Percentile> percentiles_of(AreaDistances& distances, const FiguresAsked& asked,
                                        const SurveyedPair& pair) {
   const std::vector<double>& shares = asked.options.percentiles;

@@ -1,4 +1,4 @@
-// The figures of A's area, from whatever knows the distribution of its distances.
+// The figures of A's area, from any source of the distribution of its distances.
 #pragma once
 
 #include <optional>
@@ -12,30 +12,31 @@ namespace vkh {
 
 inline constexpr double kAnyDistance = 3e38;  ///< a float: none is farther
 
-/// Asks for the share of A's area within each threshold, and for moments, if a distance is given
-/// beyond which one counts as 0.
+/// Asks for the share of A's area within each threshold. Also asks for moments if it has a distance
+/// beyond which distances count as 0.
 struct Tally {
   std::span<const Threshold> at;
   std::optional<Threshold> moments = {};
   uint32_t classes = gpu::kAllClasses;           ///< of the cells that count
   float far = static_cast<float>(kAnyDistance);  ///< the first cell that reaches it is wanted
-  /// The share is of what is within and has normals that agree, and the mean is of their cosines.
+  /// The share is of the area within the threshold whose normals agree, and the mean is of their
+  /// cosines.
   bool of_normals = false;
 };
 
-/// Tells what cells prove of the distances over A, in the frame.
+/// Returns what cells prove about the distances over A, in the frame.
 class AreaDistances {
  public:
   virtual ~AreaDistances() = default;
   virtual Tallied tally(const Tally& asked) = 0;
   /// The least distance that each share of A's area is within.
   virtual std::vector<Enclosure> percentiles(const PercentileSearch& search) = 0;
-  virtual double reached() = 0;  ///< some point is so far,
+  virtual double reached() = 0;  ///< some point is this far,
   virtual double highest() = 0;  ///< and none is farther
 };
 
-/// Whether shares within bands are all that a survey has goals for, and all that it draws: other
-/// figures then have no estimate, and there is no curve.
+/// Whether a survey has goals only for shares within bands, and draws nothing else: then other
+/// figures have no estimate, and there is no curve.
 bool has_only_shares(const SurveyOptions& options);
 
 /// Returns the figures of A, or of its part within options.max_distance; nothing if A has no area.

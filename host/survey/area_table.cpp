@@ -15,8 +15,8 @@ constexpr double kLess = 1 - 0x1p-49, kMore = 1 + 0x1p-49;
 
 uint64_t whole_of(const gpu::Wide& x) { return uint64_t{x.high} << 32 | x.low; }
 
-// The areas within each edge: those of cells that are all within it or one before, and of those
-// that it cuts.
+// The areas within each edge: of the cells that are entirely within it or an edge before it, and of
+// the cells that it cuts.
 std::vector<double> areas_within(const gpu::SurveyTable& table, uint32_t whole, uint32_t part,
                                  size_t edges) {
   std::vector<double> areas;
@@ -121,7 +121,7 @@ double AreaTable::highest() const {
   return static_cast<double>(std::bit_cast<float>(table_.highest));
 }
 
-// Shares of all and of nothing are exact: of all, where all cells count.
+// Shares of all and of nothing are exact; of all only if all cells count.
 Enclosure AreaTable::share(const TallyEdges::Places& at, bool are_all) const {
   const auto& [of_face, whole, error] = weights_;
   const double least = kLess * surely_[at.down] - error, most = kMore * perhaps_[at.up] + error;
@@ -133,7 +133,7 @@ Enclosure AreaTable::share(const TallyEdges::Places& at, bool are_all) const {
 }
 
 // A cell that counts leaves the complement of its lowest, which is no NaN.
-void AreaTable::tell(const Tally& asked, Tallied& all) const {
+void AreaTable::answer(const Tally& asked, Tallied& all) const {
   all.is_empty = table_.not_lowest == 0;
   const bool are_all = asked.classes == gpu::kAllClasses;
   for (const TallyEdges::Places& at : at_.of)
@@ -163,7 +163,7 @@ double AreaTable::mean_up(uint32_t sum, double largest) const {
   return kMore * (most / (weights_.whole - weights_.error));
 }
 
-// No value that counts is above `most`: it may count on so much area as the areas are off by.
+// No value that counts is above `most`; one may count on as much area as the areas are off by.
 Moments AreaTable::moments(double most) const {
   const double largest = most / unit_, square = largest * largest;
   return {{unit_ * mean_down(gpu::kMeanLower, largest), unit_ * mean_up(gpu::kMeanUpper, largest)},

@@ -21,7 +21,7 @@ struct AreaWeights {
   /// integers by no more than this.
   double error = 0;
 };
-/// All are 0 where no share of the areas can be told: Areas::is_positive().
+/// All weights are 0 unless the areas can have shares: Areas::is_positive().
 AreaWeights weights_of(const Areas& areas);
 
 /// The plan of a tally at some thresholds: at most gpu::kSurveyEdges. Each end of them ascends by
@@ -40,7 +40,7 @@ gpu::SurveyEdge edge_of(const Threshold& at);
 /// The plan of a tally at these edges.
 gpu::SurveyPlan plan_of(const TallyEdges& at, const Tally& asked);
 
-/// Adds what a tally says of other cells.
+/// Adds the tally of other cells.
 void add_table(const gpu::SurveyTable& table, gpu::SurveyTable& sum);
 
 /// The unit of a tally: every distance is below 2^(unit - 127), or every cosine.
@@ -52,9 +52,9 @@ class AreaTable {
   AreaTable(const gpu::SurveyTable& table, const TallyEdges& at, const AreaWeights& weights,
             int unit);
 
-  /// Adds what the table answers, of cells of some classes: shares of A's area to those before, all
-  /// else in place of what was there.
-  void tell(const Tally& asked, Tallied& all) const;
+  /// Adds the table's answers for cells of some classes: appends shares of A's area, and overwrites
+  /// everything else.
+  void answer(const Tally& asked, Tallied& all) const;
 
  private:
   double lowest() const;   // no distance is less,

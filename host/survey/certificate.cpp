@@ -30,7 +30,7 @@ class Bytes {
   }
 };
 
-// The hash is of the corners as the file has them, wherever the mesh was placed.
+// The hash is of the corners as the file has them, even if the mesh was placed elsewhere.
 std::string corners_digest(const Mesh& mesh) {
   std::string digits = mesh.placed ? mesh.placed->corners : sha256_of_corners(mesh);
   if (digits.empty()) throw OutputError("--certificate: this build cannot make SHA-256 hashes");

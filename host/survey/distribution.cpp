@@ -15,7 +15,8 @@ std::vector<Enclosure> Distribution::shares_within(std::span<const double> ascen
   std::vector<Enclosure> shares = distances_.tally({at}).shares;
   const double largest = in_files(pair_, {0, distances_.highest()}).upper;
   for (size_t i = 0; i < shares.size(); ++i) {
-    // By the threshold, which displacement moves, only nearly all area may be within the largest.
+    // The threshold may show only nearly all area within the largest distance, since displacement
+    // moves it.
     if (ascending[i] >= largest) shares[i] = {1, 1};
     shares[i].estimate = shares[i].lower + (shares[i].upper - shares[i].lower) / 2;
   }
@@ -30,7 +31,7 @@ double Distribution::undecided_area(const Enclosure& at) const {
 }
 
 // The exact sum of the faces' areas is within `error` of `whole`, in the unit of the areas; its
-// square is a power of four, by which scaling is exact but for subnormal results.
+// square is a power of four, by which scaling is exact except for subnormal results.
 Enclosure Distribution::area() const {
   const Frame& unit = areas_.unit;
   const double least = add_down(areas_.whole, -areas_.error);

@@ -10,7 +10,7 @@ namespace vkh {
 
 class Distribution {
  public:
-  /// By the cells as they are when it is asked. A has an area. All arguments outlive it.
+  /// Uses the cells as they are at each call. A has an area. All arguments outlive it.
   Distribution(AreaDistances& distances, const Areas& areas, const SurveyedPair& pair)
       : distances_(distances), areas_(areas), pair_(pair) {}
 

@@ -12,7 +12,7 @@ constexpr auto kAnyFloat = static_cast<float>(kAnyDistance);
 
 }  // namespace
 
-// A width in the frame. What a face's two distances are apart by is rounded to a float.
+// A width in the frame. The difference of a face's two distances is rounded to a float.
 double FaceGoals::tolerance() const {
   const SurveyOptions& options = asked_.options;
   const double wanted = options.field_tolerance > 0 ? asked_.frame.to_frame(options.field_tolerance)

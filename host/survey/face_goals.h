@@ -7,7 +7,7 @@
 
 namespace vkh {
 
-/// A cell scores where it is in its face's way: by it the face may be farther than it is known to
+/// A cell scores if it keeps its face open: the face may be farther there than it is known to
 /// reach, by more than is allowed.
 class FaceGoals : public WaveGoals {
  public:

@@ -25,7 +25,7 @@ std::vector<Threshold> FiguresAsked::bands() const {
   return at;
 }
 
-// A distance of the files in the frame, from below and above what it is on the stored meshes.
+// Converts a distance of the files to the frame, with bounds of what it is on the stored meshes.
 Threshold FiguresAsked::most() const {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   if (!options.max_distance) return {kAny, kAny};

@@ -1,4 +1,4 @@
-// The figures that a survey was asked for, in the frame, and how narrow each is to be.
+// The figures that a survey was asked for, in the frame, and the width that each has to reach.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +13,14 @@
 
 namespace vkh {
 
-/// The answer of a tally at the thresholds that it was asked, in the frame.
+/// The answer of a tally for its thresholds, in the frame.
 struct Tallied {
   std::vector<Enclosure> shares;     ///< of A's area within each
   Moments moments;                   ///< if they were asked for
   double lowest = 0, highest = 0;    ///< no distance is less, or more
-  float reached = 0;                 ///< some point of a cell that counts is so far
+  float reached = 0;                 ///< some point of a cell that counts is this far
   bool is_empty = false;             ///< no cell counts
-  std::optional<uint32_t> far = {};  ///< the first cell that reaches what was asked
+  std::optional<uint32_t> far = {};  ///< the first cell that reaches Tally::far
 };
 
 struct FiguresAsked {
@@ -47,23 +47,25 @@ struct FiguresAsked {
   }
   std::vector<Threshold> bands() const;
   static constexpr size_t kOfBand = 3;
-  /// The thresholds that tell of a band: itself, and a least width before and behind it.
+  /// The thresholds for a band: the band itself, and one a least width before and behind it.
   std::array<Threshold, kOfBand> around(const Threshold& band) const;
-  /// The distance beyond which one counts as 0 in moments.
+  /// The distance beyond which distances count as 0 in moments.
   Threshold most() const;
-  /// How far a share is to be narrowed: its own width, or that of its harmonic mean with the other
-  /// surface's share where that is larger.
+  /// The width of a share that counts for its goal: its own, or that of its harmonic mean with the
+  /// other surface's share, whichever is larger.
   double width_of_share(const Enclosure& share, size_t band) const;
   bool is_enough(const Enclosure& share, size_t band) const;
-  /// Whether an undecided share is so for ever, by the shares around the band: but for what is
-  /// enough, the undecided area is proven to lie at that distance, as well as floats tell.
+  /// Whether an undecided share can never be decided, by the shares around the band: all of the
+  /// undecided area except what the goal allows is proven to lie at that distance, as far as floats
+  /// resolve.
   bool is_atom(std::span<const Enclosure> around) const;
-  /// How far from the ends of a percentile that jumps nearly no area may lie: two fifths of the
-  /// width that would be enough.
+  /// The margin at the ends of a percentile that jumps, outside of which nearly no area may lie:
+  /// two fifths of the width that would be enough.
   double beside(const Enclosure& percentile) const { return 0.4 * enough(percentile); }
-  /// Whether a percentile is wide for ever: nearly no area lies between its ends, but beside them.
+  /// Whether a percentile can never be narrow: nearly no area lies between its ends, except beside
+  /// them.
   bool is_gap(const Enclosure& percentile, const Enclosure& at_from, const Enclosure& at_to) const;
-  /// Percentiles are sought to so much, if some point is so far.
+  /// The resolution to which percentiles are sought, if some point is `reached` far.
   double resolution(double reached) const { return std::max(0x1p-17 * reached, least / 16); }
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kDown = 1 - 0x1p-50, kUp = 1 + 0x1p-50;  // a quotient or root and more
 
-// A figure of all of A by the share that is kept. No distance that is kept exceeds `most`.
+// Divides a figure of all of A by the share that is kept. No kept distance exceeds `most`.
 Enclosure over(const Enclosure& figure, const Enclosure& kept, double most) {
   Enclosure e{kept.upper > 0 ? figure.lower / kept.upper * kDown : 0, most};
   if (kept.lower > 0) e.upper = std::min(most, figure.upper / kept.lower * kUp);

@@ -46,7 +46,7 @@ double largest(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// From p to a point of t, each component rounded once, but for what is rounded of low parts.
+// From p to a point of t, each component rounded once, besides roundings of low parts.
 glm::dvec3 offset(const Point2& p, const std::array<glm::dvec3, 3>& t, const FaceWeights& at) {
   const auto component = [&](int i) {
     const auto corner = [&](size_t of) { return difference({t[of][i], 0}, {p.hi[i], p.lo[i]}); };
@@ -109,7 +109,7 @@ class Cutting {
   double upper_;
 };
 
-constexpr size_t kTried = 3;  // rows on each side of a cut: those that reach farthest
+constexpr size_t kTried = 3;  // rows on each side of a cut: the ones that reach farthest
 
 // The rows that hold at all of `at`, the best first by the distances of `by`.
 std::vector<const Row*> holding(const Rows& rows, std::initializer_list<size_t> at,

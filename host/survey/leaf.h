@@ -36,11 +36,11 @@ class ScaledMesh {
   std::vector<glm::dvec3> vertices_;
 };
 
-/// A distance >= d(p, t), by little.
+/// A distance slightly above d(p, t), or equal.
 double distance_up(const Point2& p, const std::array<glm::dvec3, 3>& t);
 
 struct Leaf {
-  static constexpr uint8_t kUncut = 3;  ///< all of it is within reach of `first`
+  static constexpr uint8_t kUncut = 3;  ///< the whole part is within reach of `first`
   uint8_t alone = kUncut;               ///< otherwise: the corner on the side of `first`
   uint32_t first = 0, second = 0;       ///< faces of B
   /// The cuts on the edges from that corner, in units of 2^-16.
@@ -62,7 +62,8 @@ double middle_distance_up(const Part& part, const std::array<glm::dvec3, 3>& t);
 /// The faces nearest to the part's middle, the nearest first; the part is small.
 Hints nearest_faces(const Part& part, const ScaledMesh& b);
 
-/// The one of the hints that proves that the part is within `upper` of B, or none does.
+/// Returns a leaf that proves, by one or two of the hints, that the part is within `upper` of B;
+/// nothing if none does.
 std::optional<Leaf> proof_of(const Part& part, const ScaledMesh& b, const Hints& hints,
                              double upper);
 

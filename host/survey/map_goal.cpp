@@ -13,8 +13,8 @@
 namespace vkh {
 namespace {
 
-// About the distance that 99 % of A's area is within, rounded up by a percent: a histogram of
-// logarithms, whose areas are integers, so that the sum is the same in any order.
+// The distance that about 99 % of A's area is within, rounded up by a percent. It is a histogram of
+// logarithms, whose areas are integers, so that sums are the same in any order.
 class Percentile99 {
  public:
   Percentile99() : area_(kBins) {}
@@ -37,7 +37,7 @@ class Percentile99 {
   }
 
  private:
-  // From 2^-30 of the frame, under what floats tell, to 2.
+  // From 2^-30 of the frame, which is less than floats resolve, to 2.
   static constexpr double kOfOctave = 64, kOctaves = 30;
   static constexpr size_t kBins = 64 * 31 + 1;
   static size_t bin_of(double distance) {
@@ -48,7 +48,7 @@ class Percentile99 {
   std::vector<uint64_t> area_;
 };
 
-// Returns it for what is drawn at the cells' middles, without what is farther than `most`.
+// Returns it for the distances drawn at the cells' middles, without the ones farther than `most`.
 double percentile_99(std::span<const MapCell> cells, double most) {
   std::vector<Percentile99> blocks(block_count(cells.size()));
   for_each_block(cells.size(), [&](size_t block, size_t begin, size_t end) {
@@ -70,7 +70,7 @@ double least_area(const SurveyedPair& pair, const Areas& areas, const MapOptions
 }
 
 // How far other triangulations of both meshes' polygons may move a distance, in the files' units.
-// The displacement has it, too.
+// The displacement includes it.
 double open_of(const SurveyedPair& pair) {
   double open = 0;
   for (const Mesh* mesh : {&pair.a, &pair.b})
@@ -78,8 +78,8 @@ double open_of(const SurveyedPair& pair) {
   return open;
 }
 
-// The width up to which a cell is resolved, in the frame. What is open is no cell's fault: where it
-// alone is too much, cells are split as if it were not there.
+// The width up to which a cell is resolved, in the frame. Splits do not reduce `open`: if it alone
+// is too wide, cells are split as if it were 0.
 double step_of(double end, double open, double floor) {
   const double step = CellMap::kUnresolved * end;
   return std::max(open < step ? step - open : step, floor);
@@ -106,7 +106,7 @@ MapGoals::MapGoals(const SurveyOptions& options, const SurveyedPair& pair, const
       from_(least_bar()),
       to_(farthest) {}
 
-// Distances in a geometric row, and then the one beyond which the map leaves cells out.
+// Distances in a geometric sequence, and then the distance beyond which the map leaves cells out.
 std::vector<Threshold> MapGoals::thresholds() const {
   std::vector<Threshold> at;
   if (is_known_) return at;
@@ -118,9 +118,10 @@ std::vector<Threshold> MapGoals::thresholds() const {
   return at;
 }
 
-// The bar ends behind the last distance within which less than 99 % of the area is, all that may be
-// there taken together: cells that are still wide would make it too long, and others be left too
-// wide. It only steers. Looks again where it is outside of the distances, or these are far apart.
+// The bar ends behind the last distance within which less than 99 % of the area may be. Taking the
+// area that surely is there would make the bar too long while cells are wide, and leave other cells
+// too wide. It only steers. Looks again if the bar's end is outside of the distances, or if these
+// are far apart.
 bool MapGoals::look(const Tallied& tallied) {
   if (is_known_) return false;
   const std::vector<Threshold> at = thresholds();
@@ -158,8 +159,7 @@ CellMap map_of(const CellsRead& all, const Areas& areas, const SurveyedPair& pai
   CellMap map;
   map.unit = pair.frame.length_down(1);
   map.least = least_width(pair);
-  // What is open is told by each cell's width, so that such cells are no better known than they
-  // are.
+  // Adds what is open to each cell's width, so that no cell seems better known than it is.
   const double open = pair.frame.to_frame(open_of(pair));
   map.slack = pair.frame.length_up(std::max(pair.displacement - open, 0.0));
   if (options.max_distance) map.max_distance = typed_length(*options.max_distance);
@@ -195,8 +195,8 @@ bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair
          !b.are_points && Shells::edges_of(b).open == 0;
 }
 
-// Where all cells are nearer, the worst places still get sides.
-double near_nought(const SurveyedPair& pair, const CellMap& map, double reached) {
+// If all cells are nearer, at least the worst places get sides.
+double near_zero(const SurveyedPair& pair, const CellMap& map, double reached) {
   constexpr double kOfLargest = 0.5;
   return std::min(pair.frame.to_frame(CellMap::kUnresolved * map.bar), kOfLargest * reached);
 }

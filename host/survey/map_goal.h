@@ -23,14 +23,14 @@ class MapGoals : public WaveGoals {
   bool are_met() const override { return false; }
   SurveyEnd at_rest(bool /*is_stuck*/) const override { return SurveyEnd::kMet; }
   gpu::SurveyPlan plan(double whole) const override;
-  double part() const override { return 1; }  // each cell that scores is in its way
+  double part() const override { return 1; }  // each cell that scores has to be split
   bool is_worth(size_t split, size_t cells) const override {
     return is_nearly_met_ || 50 * split >= cells;
   }
   uint32_t parts() const override { return is_nearly_met_ ? 2 : 4; }
-  /// First splits into four what is too wide by a factor of two, and then into two what is too
-  /// wide: halves have about half of a cell's width, and of its area. The bar's end moves little by
-  /// then, and is sought once more.
+  /// First splits into four the cells that are too wide by a factor of two, and then into two the
+  /// cells that are still too wide: halves have about half of a cell's width and area. The bar's
+  /// end moves little by then, and is found once more.
   void begin_coarse() { begin(false); }
   void begin_fine() { begin(true); }
 
@@ -41,7 +41,8 @@ class MapGoals : public WaveGoals {
   }
   double least_bar() const { return std::ldexp(farthest_, -kOctaves); }
   static constexpr int kOctaves = 20, kCuts = 12;
-  static constexpr double kNarrow = 1.5;  // so far may the bar's end move between two looks
+  static constexpr double kNarrow =
+      1.5;  // the factor by which the bar's end may move between two looks
   const double most_, open_, least_, floor_;
   const bool is_sought_;  // the bar's end,
   bool is_known_;         // for as long as cells are split as they are
@@ -60,8 +61,8 @@ void add_sides(std::span<const uint32_t> classes, CellMap& map);
 /// Whether MapOptions::sides_if_cheap asks for sides of this B: it is small, has no open edge, and
 /// neither mesh stands for any triangulation of its polygons.
 bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair);
-/// Cells that are nowhere farther look like nought, and need no side: in the frame. `reached`: some
-/// point is so far.
-double near_nought(const SurveyedPair& pair, const CellMap& map, double reached);
+/// The distance, in the frame, up to which a cell has the colour of 0, so that it needs no side.
+/// `reached`: some point is this far.
+double near_zero(const SurveyedPair& pair, const CellMap& map, double reached);
 
 }  // namespace vkh

@@ -1,5 +1,5 @@
-// The bar of a map by cells, and the shares of area that it does not tell. Pictures, pages and JSON
-// have the same.
+// The bar of a map by cells, and the shares of area that it does not show: the same for pictures,
+// pages and JSON.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,11 @@ struct BarOptions {
   double upper = 0;                       ///< no distance is above it
   std::optional<Enclosure> range = {};    ///< the ends that the user asked for
 };
-/// A bar ends at 1.5 times the limit, or where the map says; one with sides is as long below
-/// nought.
+/// A bar ends at 1.5 times the limit, or where the map says; a bar with sides is as long below 0.
 MapBar bar_of(const CellMap& map, const BarOptions& options);
 
-/// Whether a cell has no colour but grey: it has no side, and is not surely within a tenth of the
-/// bar's upper end. One that is has the colour of nought.
+/// Whether a cell is drawn in grey: it has no side, and is not surely within a tenth of the bar's
+/// upper end. Within that tenth a cell without a side has the colour of 0.
 bool is_without_side(const CellMap& map, const MapBar& bar, const MapCell& cell);
 /// Whether the colours of a cell say less than they seem to.
 bool is_unresolved(const CellMap& map, const MapBar& bar, const MapCell& cell);

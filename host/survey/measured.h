@@ -1,4 +1,4 @@
-// Distances from points of cells to faces of B, in double, with what they can be off.
+// Distances from points of cells to faces of B, in double, with error bounds.
 #pragma once
 
 #include <algorithm>
@@ -67,7 +67,7 @@ inline double length_up(const glm::dvec3& v) {
 /// A triangle's corners from a point.
 struct FromPoint {
   Corners3 corners;
-  double reach = 0;  // at least the largest distance of a corner, but for a few kRound of itself
+  double reach = 0;  // at least the largest distance of a corner, less a few kRound of itself
 };
 inline FromPoint seen_from(const glm::dvec3& p, const Corners3& triangle) {
   FromPoint seen;
@@ -83,8 +83,8 @@ inline glm::dvec3 nearest_to_origin(const FromPoint& seen) {
   return closest_point(glm::dvec3(0), a, b, c).point;
 }
 
-// Above the distance of a triangle: the point that was found is one of it but for the rounding of
-// its corners, its weights and its sum, under 32 * 2^-52 of the reach as in leaf.cpp.
+// Above the distance of a triangle: the point that was found is off the triangle only by the
+// rounding of its corners, its weights and its sum, under 32 * 2^-52 of the reach as in leaf.cpp.
 inline double distance_above(const FromPoint& seen) {
   return length_up(nearest_to_origin(seen)) + 64 * kRound * seen.reach;
 }

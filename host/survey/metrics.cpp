@@ -29,7 +29,8 @@ double square_root_up(double x) {
              : root;
 }
 
-// Sets the estimate of a figure, within its interval, if all figures that it is of have one.
+// Sets the estimate of a figure, within its interval, if all figures that it is computed from have
+// one.
 template <class Formula, class... Parts>
 void estimate(Enclosure& e, const Formula& formula, const Parts&... parts) {
   if (!(parts.estimate && ...)) return;
@@ -77,7 +78,7 @@ Enclosure weight_of(const Enclosure& a, const Enclosure& b) {
 }
 
 // Monotone in x and y, and linear in w, so that each end lies at an end of w. A mean with weights
-// that are not negative lies between x and y, whatever its roundings were.
+// that are not negative lies between x and y, so the result is clamped to them.
 Enclosure weighted(const Enclosure& weight, const Enclosure& x, const Enclosure& y) {
   Enclosure e{std::max(x.lower, y.lower), std::min(x.upper, y.upper)};
   for (const double w : {weight.lower, weight.upper}) {
@@ -171,7 +172,8 @@ class Goals {
     return kSlack * std::max(MetricsOptions::kTolerance * lower + rounding_, least_);
   }
   bool is_met(const Enclosure& length) const { return known_to(length) <= of_length(length.lower); }
-  // `parts`: whether both directions' figures that it is of are as narrow as they are to be.
+  // `parts`: whether the figures of both directions that it is computed from are as narrow as
+  // asked.
   Metric length(const Enclosure& e, bool parts, bool jump = false) const {
     return {e, parts || is_met(e), jump};
   }
@@ -199,7 +201,7 @@ MetricsWithin within_of(const Enclosure& weight, const AreaWithin& a, const Area
   return at;
 }
 
-// `between`: both parts' own percentiles, which it lies between.
+// `between`: the percentiles of both parts, which it lies between.
 Metric pooled_metric(const Distribution& a, const Distribution& b, double share,
                      const Enclosure& between, const Goals& goals) {
   Enclosure pooled = pooled_percentile(a, b, share, between);

@@ -8,7 +8,7 @@
 namespace vkh {
 
 /// One direction: its interval, and the survey of the mesh that it begins at, whose only percentile
-/// is the one that is asked for.
+/// is the requested one.
 struct MeasuredDirection {
   const Report& report;
   const Statistics& statistics;

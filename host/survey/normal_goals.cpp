@@ -15,10 +15,10 @@ Tally NormalGoals::asked() const {
 }
 
 bool NormalGoals::look(const Tallied& /*tallied*/) {
-  const std::optional<Tallied> told = waves_.tally_now(asked());
-  if (!told) return false;
-  mean_ = FiguresAsked::width(told->moments.mean);
-  for (size_t i = 0; i < bands_.size(); ++i) shares_[i] = FiguresAsked::width(told->shares[i]);
+  const std::optional<Tallied> tallied = waves_.tally_now(asked());
+  if (!tallied) return false;
+  mean_ = FiguresAsked::width(tallied->moments.mean);
+  for (size_t i = 0; i < bands_.size(); ++i) shares_[i] = FiguresAsked::width(tallied->shares[i]);
   return false;
 }
 

@@ -19,7 +19,7 @@ class NormalGoals : public WaveGoals {
   double part() const override;
 
   /// Encloses the mean over A's area of |cos| of the angle between the normals, and the share
-  /// within each band whose normals agree; even where the survey was called off.
+  /// within each band whose normals agree; even if the survey was called off.
   Tallied figures() { return waves_.tally_anyway(asked()); }
 
  private:

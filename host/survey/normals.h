@@ -20,12 +20,12 @@ UnitNormal unit_normal(const Corners3& face);
 /// Encloses the cosine of an angle from 0 to 90 degrees.
 Enclosure cosine_of_degrees(double degrees);
 
-/// The normals of two surfaces, and the cosine from which on they agree.
+/// The normals of two surfaces, and the cosine from which on normals agree.
 class Normals {
  public:
   Normals(const SurveyedPair& pair, double degrees);
 
-  /// Returns what the search has to know; it holds as long as this lives.
+  /// Returns the input of the search; valid as long as this lives.
   NormalSearch search() const;
 
  private:

@@ -6,7 +6,7 @@
 namespace vkh {
 namespace {
 
-// One end of a percentile between two distances: it is above the one and not above the other.
+// One end of a percentile, which is above one distance and not above another.
 struct PercentileEnd {
   double share, low, likely, high;  // it was at the likely one before cells were split
   bool is_upper;
@@ -52,7 +52,7 @@ std::vector<PercentileEnd*> wide_ends(PercentileEnds& ends, double resolution) {
 
 }  // namespace
 
-// Each pass cuts what is left of the ends. No cell is split between two.
+// Each pass narrows the ends that are left. No cell is split between two passes.
 std::vector<Enclosure> percentiles_by(const PercentileSearch& search, const KnownEnds& known_ends,
                                       AreaDistances& distances) {
   constexpr int kMostTallies = 20;

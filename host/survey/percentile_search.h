@@ -9,7 +9,7 @@
 
 namespace vkh {
 
-/// Returns what earlier tallies told of the percentile of a share.
+/// Returns the bounds that earlier tallies gave for the percentile of a share.
 using KnownEnds = std::function<SharesSeen::Ends(double share)>;
 
 std::vector<Enclosure> percentiles_by(const PercentileSearch& search, const KnownEnds& known_ends,

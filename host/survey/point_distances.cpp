@@ -68,7 +68,7 @@ gpu::CellBounds PointDistances::narrowed(uint32_t face, const gpu::CellBounds& b
 
 namespace {
 
-// Whether a point is not known as well as it is asked, or a cut lies between its bounds.
+// Whether a point is known less well than asked, or a cut lies between its bounds.
 bool matters(const gpu::CellBounds& b, const PointDistances::Asked& asked) {
   const auto least = static_cast<double>(lib::lowest_of(b)), most = static_cast<double>(b.highest);
   if (!(most > least)) return false;

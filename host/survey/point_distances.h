@@ -23,7 +23,7 @@ class PointDistances {
   /// bounds. Leaves them as they are where the scale of the frame rounds a coordinate.
   gpu::CellBounds narrowed(uint32_t face, const gpu::CellBounds& bounds) const;
 
-  /// The points that matter: those whose bounds a cut lies between, or are wider than that.
+  /// The points that matter: a cut lies between their bounds, or these are wider than asked.
   struct Asked {
     std::span<const Threshold> cuts;
     double least;
@@ -42,7 +42,8 @@ class PointDistances {
   const Mesh &a_, &b_;
   const Frame frame_;
   const double displacement_;
-  bool is_exact_ = true;              // of B; before the vertices whose scaling tells it
+  bool is_exact_ =
+      true;  // scaling B rounded nothing; it precedes the vertices, whose initialisation sets it
   std::vector<glm::dvec3> vertices_;  // B's, scaled
   TriangleTree tree_;
 };

@@ -35,14 +35,14 @@ constexpr int kMostRounds = 3;  // 24 bits
 
 }  // namespace
 
-// A distance at which less than the share may be within is below the percentile; one at which it
-// surely is within is not. A percentage that is typed lies within two ulps of `share`.
+// If less than the share can be within a distance, the distance is below the percentile; if at
+// least the share surely is, it is not. A percentage that is typed lies within two ulps of `share`.
 Enclosure pooled_percentile(const Distribution& a, const Distribution& b, double share,
                             const Enclosure& known) {
   const double down = share * (1 - 0x1p-52), up = std::min(share * (1 + 0x1p-52), 1.0);
   Enclosure e{known.lower, known.upper};
   double before = std::numeric_limits<double>::infinity();
-  // Where cuts no longer halve it, the cells' bounds are what is wide.
+  // If cuts no longer halve it, the cells' bounds are too wide.
   for (int pass = 0; pass < kMostRounds && 2 * FiguresAsked::width(e) < before; ++pass) {
     before = FiguresAsked::width(e);
     const std::vector<double> cuts = cuts_of(e);
@@ -55,7 +55,7 @@ Enclosure pooled_percentile(const Distribution& a, const Distribution& b, double
   return e;
 }
 
-// The same margins as those of one surface's percentile (FiguresAsked::is_gap).
+// Uses the margins of one surface's percentile (FiguresAsked::is_gap).
 bool is_pooled_jump(const Distribution& a, const Distribution& b, const Enclosure& e,
                     double enough) {
   if (!(e.upper - e.lower > enough)) return false;

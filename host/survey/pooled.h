@@ -18,15 +18,15 @@ Enclosure pooled_percentile(const Distribution& a, const Distribution& b, double
 bool is_pooled_jump(const Distribution& a, const Distribution& b, const Enclosure& e,
                     double enough);
 
-/// The wish for that percentile: to be narrowed by the cells of one surface.
+/// The search for that percentile, by the cells of one surface.
 struct PooledSearch {
   const Distribution* other;  ///< of the other one
   double share = 0;
   Enclosure known = {};  ///< encloses it, in the files' units
 };
 
-/// How far one surface's cells have got with it. They are left at a jump, and when the other
-/// surface's cells are more in the way. All arguments outlive it.
+/// The goal of one surface's cells. It is given up at a jump, and when the other surface's cells
+/// matter more. All arguments outlive it.
 class PooledGoals : public WaveGoals {
  public:
   PooledGoals(const PooledSearch& search, const Distribution& own, const SurveyedPair& pair)
@@ -37,7 +37,7 @@ class PooledGoals : public WaveGoals {
   gpu::SurveyPlan plan(double whole) const override;
   double part() const override { return kNearlyAll; }
   const Enclosure& known() const { return known_; }
-  /// Both ends of it, in the frame.
+  /// Both ends of the percentile, in the frame.
   std::vector<Threshold> ends() const;
 
  private:

@@ -1,4 +1,4 @@
-// The tree in which the faces of A are halved, with what proves each leaf, written in the format of
+// The tree in which the faces of A are halved, with a proof for each leaf, written in the format of
 // docs/certificate-file.md.
 #pragma once
 

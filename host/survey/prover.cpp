@@ -29,7 +29,8 @@ struct Open {
   uint32_t face;
   uint8_t depth = 0;
   bool has_cell = true;  // its corners are multiples of 2^-20
-  uint8_t searched = 0;  // its depth, or an ancestor's, when all of B was searched for it; 0: never
+  uint8_t searched =
+      0;  // its depth, or an ancestor's, when all of B was searched for it last; 0: never
   bool is_proven = false;
   gpu::Cell cell{};
   Part part;
@@ -104,19 +105,19 @@ class Prover {
   static constexpr uint8_t kSmall = 8;        // halvings
   static constexpr size_t kFew = 64;
   static constexpr double kMore = 256 * 0x1p-52;
-  // No part of a face is proven to 0 where an edge of B crosses it in its plane: so many parts that
-  // are so small may take more and more.
+  // If an edge of B crosses a face in its plane, the parts at the edge are never proven to 0: then
+  // this many parts of this size may use more and more.
   static constexpr uint8_t kVerySmall = 24, kSearchAgain = 8;
-  // Where the run's bound is as tight as doubles make it, over an area, halves of it come close to
-  // it, and there are millions of them: then parts take more and more of what the tolerance leaves.
+  // If the run's bound is as tight as doubles allow over a whole area, millions of parts come close
+  // to it. Then parts may use more and more of what the tolerance leaves.
   static constexpr size_t kPiled = size_t{1} << 15;
   static constexpr double kMoreATurn = 64;
   static constexpr double kDoubt = 1 + 0x1p-20;         // eight ulp of a float
   static constexpr size_t kMostSeen = size_t{1} << 27;  // faces, in all searches: seconds
   static constexpr size_t kManySmall = size_t{1} << 12;
 
-  // Half of what the interval may still be wider, in the files' units. What is within a limit stays
-  // so.
+  // Half of what the interval may still grow by, in the files' units. A bound that is within a
+  // limit stays within it.
   static double spare_of(const Report& r) {
     double left = add_down(r.tolerance, -width_up(r.lower, r.upper));
     if (r.limit.within > 0 && r.upper <= r.limit.within)
@@ -124,18 +125,19 @@ class Prover {
     return std::isfinite(left) ? std::max(left / 2, 0.0) : 0;
   }
 
-  // A length of the files in the scaled meshes, less what these are off: rounded down.
+  // Converts a length of the files to the scaled meshes, less their error, rounded down.
   double target(double upper) const {
     const double scaled = std::ldexp(add_down(upper, -delta_), exponent_);
     return std::isnormal(scaled) || scaled == 0 ? scaled : std::nextafter(scaled, -1.0);
   }
-  // A length of the scaled meshes in the files' units: rounded up.
+  // Converts a length of the scaled meshes to the files' units, rounded up.
   double given(double scaled) const {
     const double length = std::ldexp(scaled, -exponent_);
     return add_up(std::isnormal(length) ? length : std::nextafter(length, 1.0), delta_);
   }
 
-  // Proves `count` faces from the first on; returns the largest bound that had to be raised to.
+  // Proves `count` faces from the first on; returns the largest bound that a leaf had to be raised
+  // to.
   double prove(size_t first, size_t count) {
     ProofTree tree(count);
     std::vector<Open> open(count);
@@ -190,9 +192,9 @@ class Prover {
     return ended_;
   }
 
-  // Adds leaves for the parts that a hint proves; the others stay, in their order. Points may take
-  // a little more, and small parts, unless few are left: those are around the farthest point of A,
-  // where halving goes on until what is left of them is a rounding.
+  // Adds leaves for the parts that a hint proves; the others stay, in their order. Points and small
+  // parts may use a little more than the bound, unless few parts are left: these are around the
+  // farthest point of A, where halving goes on until only roundings are left.
   double close(std::vector<Open>& some, ProofTree& tree) {
     std::vector<std::optional<Leaf>> found(some.size());
     std::atomic<bool> took_more = false;
@@ -224,10 +226,10 @@ class Prover {
     if (leaf.alone != Leaf::kUncut) ++result_.cut_leaves;
   }
 
-  // Chooses the parts for which all of B is searched: those too small to ask the device about,
-  // points, and small ones whose known faces are within the bound but for a float's rounding, since
-  // the device may have missed a nearer face. Of the others only the farthest: if all of B is too
-  // far from it, the bound must be raised, and halving the rest would be in vain.
+  // Chooses the parts for which all of B is searched: parts too small for the device, points, and
+  // small parts whose known faces exceed the bound only by a float's rounding, since the device may
+  // have missed a nearer face. Of the others only the farthest: if all of B is too far from it, the
+  // bound must be raised, and halving the rest would be in vain.
   std::vector<Open*> to_search(std::vector<Open>& open) {
     std::vector<Open*> sought;
     Open* farthest = nullptr;
@@ -260,8 +262,8 @@ class Prover {
     for (const Open* one : sought) heed(*one);
   }
 
-  // A middle that is farther from all of B refutes the run. The rest is proven to what this part
-  // can be: halving would go on for millions of parts.
+  // A middle that is farther from all of B than the bound refutes the run. The rest is then proven
+  // to the bound that this part can have: otherwise halving would go on for millions of parts.
   void heed(const Open& searched) {
     const double from_b = middle_distance_up(searched.part, b_.corners(searched.hints.face[0]));
     if (from_b <= upper_ + kMore) return;
@@ -269,7 +271,7 @@ class Prover {
     raised_ = upper_;
   }
 
-  // Asks the device which faces of B are near. Parts that are too small for it keep what they have.
+  // Asks the device which faces of B are near. Parts that are too small for it keep their hints.
   void ask(std::vector<Open>& open) {
     std::vector<Open*> asked;
     for (Open& one : open) {
@@ -306,7 +308,8 @@ class Prover {
     one.cell.start = found.triangle;
   }
 
-  // Halves the parts. Points, and those that are halved no more, are proven to what they are.
+  // Halves the parts. Points, and parts that may not be halved again, get the bound that can be
+  // proven for them.
   double halve(const std::vector<Open>& some, ProofTree& tree, std::vector<Open>& halves) {
     std::vector<Open> last;
     for (const Open& one : some) {
@@ -346,8 +349,9 @@ class Prover {
   int exponent_;
   double delta_;
   ScaledMesh a_, b_;
-  double upper_;                // bound in the scaled meshes
-  const double spare_;          // more than that, and the interval is still as narrow as asked
+  double upper_;  // bound in the scaled meshes
+  const double
+      spare_;  // the bound may grow by this much, and the interval is still as narrow as asked
   std::vector<uint32_t> same_;  // where that is 0: one face of B for each of A
   double more_ = kMore;
   bool has_few_ = false;

@@ -20,8 +20,8 @@ void QuantileGoal::add_thresholds(double beside, std::vector<Threshold>& at) con
   at.push_back({known.upper - beside, known.upper - beside});
 }
 
-// A distance at which less than the share may be within is below the percentile; one at which it
-// surely is within is not.
+// If less than the share can be within a distance, the distance is below the percentile; if at
+// least the share surely is, it is not.
 void QuantileGoal::look(std::span<const Threshold> at, std::span<const Enclosure> shares) {
   first = known.upper;
   last = known.lower;

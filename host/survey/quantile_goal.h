@@ -1,4 +1,4 @@
-// How far a survey has got with a percentile.
+// The state of a survey's search for a percentile.
 #pragma once
 
 #include <span>
@@ -14,28 +14,28 @@ struct QuantileGoal {
 
   double share;
   Enclosure known;
-  // The first threshold at which the share may be reached, and the last one at which it may not
-  // be: much area is undecided there, where at the ends there may be none.
+  // The first threshold at which the share may be reached, and the last one at which it may not be.
+  // Much area is undecided at these, while at the ends there may be none.
   double first, last;
   Enclosure at_first, at_last;  // the shares within them
   bool is_gap = false;          // nearly no area lies between its ends
 
   static constexpr int kPieces = 5;  ///< into which a tally cuts each range
   static constexpr size_t kThresholds = 3 * (kPieces - 1) + 2;
-  /// Adds thresholds at all that is known, and closer about both ends; the last two lie `beside`
-  /// the ends, between them.
+  /// Adds thresholds over the known interval, closer together at both ends. The last two lie
+  /// between the ends, `beside` away from them.
   void add_thresholds(double beside, std::vector<Threshold>& at) const;
-  /// Takes in the shares within these.
+  /// Uses the shares within these thresholds.
   void look(std::span<const Threshold> at, std::span<const Enclosure> shares);
-  /// Takes in that no distance is outside.
+  /// Narrows the percentile to an interval that contains all distances.
   void narrow(const Enclosure& all);
 
   double width() const { return known.upper - known.lower; }
-  /// How far the ends may be from where the cells have them.
+  /// How far the ends may be from the best that the cells prove.
   double doubt() const { return (first - known.lower) + (known.upper - last); }
-  /// Whether they may be too far, to see whether they are narrow, and what to split.
+  /// Whether that is too far to decide whether the percentile is narrow, and what to split.
   bool is_coarse(double narrow) const;
-  /// So much scores what is undecided at `first` and `last`.
+  /// The score of the undecided area at `first` and `last`.
   double weight() const;
 };
 

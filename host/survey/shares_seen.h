@@ -1,6 +1,6 @@
-// Remembers what tallies have told of the shares of A's area within distances. A share only grows
-// with the distance, and a survey only narrows it: so what was seen at one distance tells of all
-// others, and holds for ever.
+// Remembers the shares of A's area within distances that tallies have found. A share only grows
+// with the distance, and a survey only narrows it: so a share at one distance bounds the shares at
+// all others, and stays true.
 #pragma once
 
 #include <map>
@@ -18,9 +18,9 @@ class SharesSeen {
   /// Encloses the share within a threshold.
   Enclosure within(const Threshold& at) const;
 
-  /// Encloses a percentile: it is above `low`, and not above `high`. As the cells were when they
-  /// were last asked, its lower end was at most `first`, and its upper end at least `last`. These
-  /// two only steer. Without bounds the ends are `least` and `most`.
+  /// Encloses a percentile: it is above `low`, and not above `high`. With the cells of the last
+  /// tally, its lower end was at most `first`, and its upper end at least `last`. These two only
+  /// steer. Without bounds the ends are `least` and `most`.
   struct Ends {
     double low, first, last, high;
   };

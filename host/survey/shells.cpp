@@ -1,7 +1,7 @@
 // Why points have a side (docs/certificate.md, "Sides"). The faces of a mesh whose edges are used
 // equally often in both directions have no boundary, so that the number of times that they wind
 // round a point is an integer, constant on each connected part of what is not B. Each such part,
-// but for the unbounded one, where the number is 0, has on its boundary an inner point of a face
+// except the unbounded one, where the number is 0, has on its boundary an inner point of a face
 // that is not degenerate. Where faces touch in nothing but points, shared edges and parts of
 // boundaries, a face's whole front belongs to one part, and so do the fronts of two faces at an
 // edge that they alone use. One number, counted in front of one face, holds for the patch of all
@@ -80,8 +80,8 @@ bool an_edge_meets(const Corners3& s, const Corners3& t) {
 
 enum class Contact { kNone, kTouch, kCross };
 
-// Whether t has an edge in the plane of s, and no more, that lies on the line of an edge of s or
-// beyond it: it meets the boundary of s alone.
+// Whether only one edge of t lies in the plane of s, on the line of an edge of s or beyond it: then
+// t meets at most the boundary of s.
 bool has_edge_beside(const Corners3& t, const Sides3& of_t, const Corners3& s) {
   if (of_t.on != 2 || of_t.is_across()) return false;
   int axis = 0;
@@ -509,8 +509,8 @@ std::optional<int> Shells::winding_beside(uint32_t face, int attempt) const {
   return is_alone ? winding(front) : std::nullopt;
 }
 
-// Counts the faces that a ray along the axis leaves to the front, less those that it enters: the
-// solid angles' sum, whatever the direction. None may be met at an edge.
+// Counts the faces that a ray along the axis leaves to the front, less the faces that it enters:
+// the sum of solid angles, which is the same for every direction. No face may be met at an edge.
 std::optional<int> Shells::winding_along(int axis, const glm::dvec3& p) const {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   int winding = 0;

@@ -18,8 +18,7 @@ namespace vkh {
 /// and no other faces use it.
 void refuse_conflicts(const Mesh& mesh);
 
-/// Triangles of a mesh, by corners that any power of two may scale: no statement here depends on
-/// it.
+/// Triangles of a mesh. Its corners may be scaled by any power of two: no result depends on that.
 class Shells {
  public:
   /// `faces` index into `vertices`, which are all finite. Where `goes_on` ends it, inside() is
@@ -41,11 +40,12 @@ class Shells {
   bool is_covered(uint32_t face) const { return kind_[face] == Kind::kCovered; }
   /// Whether some face has the same corners in the opposite order.
   bool is_two_sided(uint32_t face) const { return is_two_sided_[face]; }
-  /// All faces but those segments and points that other faces cover: the same points.
+  /// All faces except segments and points that other faces cover. They have the same points as all
+  /// faces.
   const TriangleTree& tree() const { return tree_; }
 
-  /// The number of times that B winds round p, exactly; nothing where p lies on B, or where rays
-  /// along all three axes pass through edges.
+  /// The number of times that B winds round p, exactly; nothing if p lies on B, or if rays along
+  /// all three axes pass through edges.
   std::optional<int> winding(const glm::dvec3& p) const;
   /// The winding number in front of every face, where inside() is kProven.
   int front() const { return front_; }

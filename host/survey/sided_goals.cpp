@@ -9,7 +9,7 @@
 namespace vkh {
 namespace {
 
-// Scores what may be farther than a distance.
+// Scores cells that may be farther than a distance.
 void add_farther(double distance, double weight, uint32_t classes, gpu::SurveyPlan& plan) {
   add_open({distance, kAnyDistance}, weight, plan, classes);
 }
@@ -22,14 +22,14 @@ SidedLimitGoals::SidedLimitGoals(const SurveyOptions& options, const SurveyedPai
       under_(FiguresAsked(options, pair).threshold(options.sided->under)),
       waves_(waves) {}
 
-// Tallies at no distance tell what cells reach, and what they do not exceed.
+// Tallies without thresholds give what cells reach, and what they do not exceed.
 bool SidedLimitGoals::look(const Tallied& /*tallied*/) {
   const double most = std::max(over_.up, under_.up);
   bool are_within = true, is_beyond = false;
   const auto see = [&](uint32_t classes, double within, double beyond) {
-    const std::optional<Tallied> told = waves_.tally_now({.at = {}, .classes = classes});
-    are_within = are_within && told && (told->is_empty || told->highest <= within);
-    is_beyond = is_beyond || (told && static_cast<double>(told->reached) > beyond);
+    const std::optional<Tallied> tallied = waves_.tally_now({.at = {}, .classes = classes});
+    are_within = are_within && tallied && (tallied->is_empty || tallied->highest <= within);
+    is_beyond = is_beyond || (tallied && static_cast<double>(tallied->reached) > beyond);
   };
   see(kOverB, over_.down, over_.up);
   see(kUnderB, under_.down, under_.up);
@@ -54,8 +54,8 @@ gpu::SurveyPlan SidedLimitGoals::plan(double /*whole*/) const {
 bool UnsidedGoals::look(const Tallied& /*tallied*/) {
   constexpr double kEnough = 0.05;
   const std::array<Threshold, 2> at{{{near(), near()}, {kAnyDistance, kAnyDistance}}};
-  const std::optional<Tallied> told = waves_.tally_now({.at = at, .classes = kMayGetSide});
-  are_met_ = told && told->shares[1].upper - told->shares[0].lower <= kEnough;
+  const std::optional<Tallied> tallied = waves_.tally_now({.at = at, .classes = kMayGetSide});
+  are_met_ = tallied && tallied->shares[1].upper - tallied->shares[0].lower <= kEnough;
   return false;
 }
 
@@ -76,8 +76,7 @@ SignedGoals::SignedGoals(const SurveyOptions& options, const SurveyedPair& pair,
   for (const double share : kSignedShares) quantiles_.emplace_back(share, mean_);
 }
 
-// A signed figure may be 0, of which no share is a width to work towards: the mean distance is the
-// scale of what is asked then.
+// A signed figure may be 0, and a share of that is no goal: then the mean distance is the scale.
 double SignedGoals::enough(const Enclosure& figure) const {
   const double size = std::max({figure.lower, -figure.upper, distances_.plain_mean()});
   return std::max(options_.signed_tolerance * size, least_);
@@ -119,8 +118,8 @@ bool SignedGoals::are_met() const {
                                          [&](const QuantileGoal& p) { return is_open(p.known); });
 }
 
-// At a threshold of either sign, cells of one side are undecided at that distance; those that may
-// get a side, wherever they may be farther.
+// At a threshold of either sign, cells of one side are undecided around that distance; cells that
+// may get a side are undecided wherever they may be farther.
 gpu::SurveyPlan SignedGoals::plan(double whole) const {
   gpu::SurveyPlan plan{};
   plan.of_whole = static_cast<float>(1 / whole);

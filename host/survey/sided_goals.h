@@ -10,7 +10,7 @@
 namespace vkh {
 
 /// A cell scores if it may be beyond the limit of its side, or has none and may be beyond the
-/// smaller one. Met, too, as soon as some point is beyond.
+/// smaller one. The goal is also met as soon as some point is beyond.
 class SidedLimitGoals : public WaveGoals {
  public:
   /// `options` ask for limits of sides.
@@ -30,9 +30,9 @@ class SidedLimitGoals : public WaveGoals {
   bool are_met_ = false;
 };
 
-/// A cell without a side that may get one scores by its area, until a twentieth of A's is left that
-/// has none and is farther from B than a hundredth of the largest distance: what is nearer has a
-/// signed distance that is known as well without a side.
+/// A cell without a side that may get one scores by its area, until at most a twentieth of A's area
+/// has no side and is farther from B than a hundredth of the largest distance. The signed distance
+/// of nearer points is known well enough without a side.
 class UnsidedGoals : public WaveGoals {
  public:
   explicit UnsidedGoals(WaveSurvey& waves) : waves_(waves) {}

@@ -73,7 +73,7 @@ double Sides::distance_down(const glm::dvec3& p, uint32_t hint) const {
 }
 
 // The corner lies within 2 `off` of the double that stands for it, which is more than sqrt(3) off.
-// Sides are of the meshes as they are held, and so is this distance: the deltas are taken off.
+// Sides are of the meshes as they are held, and so is this distance: the deltas are subtracted.
 SidedPoint Sides::farthest_corner(const gpu::Cell& cell, uint32_t hint) const {
   const UVec3& f = a_.faces[cell.face];
   const auto vertex = [&](uint32_t v) {

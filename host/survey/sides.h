@@ -21,7 +21,7 @@ class Sides {
   const Shells& shells() const { return shells_; }
   /// Whether B bounds a solid: shells().inside() is proven, of the corners as given.
   bool is_solid() const { return is_exact_ && shells_.inside() == Inside::kProven; }
-  /// Returns what the search has to know of B; it holds as long as this lives.
+  /// Returns the input of the search; valid as long as this lives.
   SideSearch search() const;
 
   /// The corner of the cell that is farthest from B, and a distance that is proven of it as it lies
@@ -34,7 +34,8 @@ class Sides {
   const Mesh &a_, &b_;
   const Frame frame_;
   const double displacement_;
-  bool is_exact_ = true;  // scaling rounded nothing; before the members whose scaling tells it
+  bool is_exact_ =
+      true;  // scaling rounded nothing; it precedes the members whose initialisation sets it
   Shells shells_;
   std::vector<uint32_t> face_kinds_;
 };

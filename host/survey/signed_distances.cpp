@@ -10,7 +10,7 @@
 namespace vkh {
 namespace {
 
-// Holds what cells of one side tell: shares of A's area within distances, and of all of them.
+// The answers of the cells of one side: shares of A's area within distances, and at any distance.
 struct OfSide {
   std::vector<Enclosure> within;
   Enclosure all;
@@ -33,8 +33,9 @@ Enclosure sum_of(const Enclosure& x, const Enclosure& y) {
   return {add_down(x.lower, y.lower), add_up(x.upper, y.upper)};
 }
 
-// The share within a threshold: below 0 what is under B and so far, or perhaps what has no side;
-// from 0 on all that is under B, and what is over B or has no side and is no farther.
+// The share within a threshold. Below 0: points under B that are this far, and perhaps points
+// without a side. From 0 on: all points under B, and points over B or without a side that are no
+// farther.
 Enclosure share_at(const Threshold& at, size_t i, const std::array<OfSide, 3>& sides) {
   const auto& [over, under, other] = sides;
   Enclosure share;
@@ -52,8 +53,8 @@ Enclosure share_at(const Threshold& at, size_t i, const std::array<OfSide, 3>& s
 
 }  // namespace
 
-// Asks the cells of one side. At a threshold of the other sign they are asked nothing: no distance
-// is below 0.
+// Tallies the cells of one side. Thresholds of the other sign need no tally, since no distance is
+// below 0.
 std::optional<Tallied> SignedDistances::tally_side(const Tally& asked, uint32_t classes) {
   std::vector<Threshold> at;
   for (const Threshold& one : asked.at) {
@@ -69,10 +70,10 @@ Tallied SignedDistances::tally(const Tally& asked) {
   std::array<OfSide, 3> sides;
   double highest = 0;
   for (size_t k = 0; k < sides.size(); ++k) {
-    const std::optional<Tallied> told = tally_side(asked, kClasses[k]);
-    if (!told) return told_before(asked);
-    sides[k] = {told->shares, told->shares.back(), told->moments.mean};
-    highest = std::max(highest, told->highest);
+    const std::optional<Tallied> tallied = tally_side(asked, kClasses[k]);
+    if (!tallied) return last_answer(asked);
+    sides[k] = {tallied->shares, tallied->shares.back(), tallied->moments.mean};
+    highest = std::max(highest, tallied->highest);
   }
   Tallied all;
   for (size_t i = 0; i < asked.at.size(); ++i) {
@@ -94,8 +95,8 @@ Tallied SignedDistances::tally(const Tally& asked) {
   return all;
 }
 
-// Repeats what was told of larger cells, since it holds for their parts.
-Tallied SignedDistances::told_before(const Tally& asked) {
+// Repeats the last answer, which holds for the parts of its cells, too.
+Tallied SignedDistances::last_answer(const Tally& asked) {
   Tallied all;
   all.highest = waves_.highest();
   all.lowest = -all.highest;

@@ -15,22 +15,22 @@ Enclosure reach_in_files(const SurveyedPair& pair, double lower, double upper) {
   return {std::min(e.lower, e.upper), e.upper};
 }
 
-// `own`: cells of the side, `not_other`: those that are not on the other one.
+// `own`: cells of the side; `not_other`: cells that are not on the other side.
 struct SideAsked {
   uint32_t own, not_other;
 };
 constexpr SideAsked kOver{kOverB, gpu::kAllClasses & ~kUnderB},
     kUnder{kUnderB, gpu::kAllClasses & ~kOverB};
 
-// A bound from above is never 0: a face of which there is no such cell has 0.
+// An upper bound of a cell is never 0, so 0 marks a face without such cells.
 Field field_of_side(const SurveyedPair& pair, const SideAsked& side, WaveSurvey& waves) {
-  const std::vector<float> told = waves.faces(side.own, side.not_other);
-  const size_t faces = told.size() / 2;
+  const std::vector<float> distances = waves.faces(side.own, side.not_other);
+  const size_t faces = distances.size() / 2;
   Field field;
   for (size_t f = 0; f < faces; ++f) {
-    const auto upper = static_cast<double>(told[faces + f]);
-    const Enclosure e =
-        upper > 0 ? reach_in_files(pair, static_cast<double>(told[f]), upper) : Enclosure{0, 0};
+    const auto upper = static_cast<double>(distances[faces + f]);
+    const Enclosure e = upper > 0 ? reach_in_files(pair, static_cast<double>(distances[f]), upper)
+                                  : Enclosure{0, 0};
     field.lower.push_back(e.lower);
     field.upper.push_back(e.upper);
   }
@@ -42,8 +42,8 @@ struct WholeSide {
   std::optional<SidedPoint> witness;
 };
 
-// A witness is a corner of the first cell that is known to reach farthest: it raises what the side
-// reaches at least.
+// The witness is a corner of the first cell that provably reaches farthest. It raises the side's
+// lower bound.
 WholeSide whole_side(const SurveyedPair& pair, const SideAsked& side, const Sides& sides,
                      WaveSurvey& waves) {
   WholeSide found{{0, 0}, {}};
@@ -65,13 +65,13 @@ void raise_witness(const std::optional<SidedPoint>& witness, Field& of_faces) {
   lower = std::max(lower, witness->lower);
 }
 
-// The share of A's area that is of some classes; none of it, exactly, if no cell is.
+// The share of A's area in some classes; exactly 0 if no cell is in them.
 Enclosure share_of_classes(uint32_t classes, WaveSurvey& waves) {
   const std::array<Threshold, 1> all{{{kAnyDistance, kAnyDistance}}};
   return waves.tally_anyway({.at = all, .classes = classes}).shares[0];
 }
 
-// As a rule cells without a side meet B, all of them.
+// As a rule all cells without a side meet B.
 SignedFigures::Areas areas_of_sides(WaveSurvey& waves) {
   constexpr uint32_t kMeets = 1u << gpu::kClassMeets;
   SignedFigures::Areas areas;

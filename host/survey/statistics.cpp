@@ -35,7 +35,7 @@ struct FaceArea {
   double area, error;
 };
 
-// No square of a component may underflow.
+// Uses hypot3, since no square of a component may underflow.
 double length_of(const glm::dvec3& v) { return hypot3(v.x, v.y, v.z); }
 
 // Half of |e x f|. Differences are off by kUnit of themselves, a component of the product by 4
@@ -64,7 +64,7 @@ Frame unit_of(const Mesh& a) {
   return unit;
 }
 
-// Every point counts alike, as one. Sums of ones are exact: the error is of quotients and products
+// Every point counts as one. Sums of ones are exact: the error is of quotients and products
 // with them.
 Areas counts_of(size_t points) {
   Areas areas;
@@ -106,7 +106,7 @@ float least_float_above(double x) {
              : near;
 }
 
-// Scaling by a power of two rounds subnormal results alone, which are far below `displacement`.
+// Scaling by a power of two rounds only subnormal results, which are far below `displacement`.
 Threshold threshold_at(const Frame& frame, double displacement, double distance) {
   const double d = frame.to_frame(distance);
   return {d * (1 - 1e-15) - displacement, d * (1 + 1e-15) + displacement};

@@ -1,4 +1,4 @@
-// Areas of A, and what is told of shares of them.
+// Areas of A, and the types for shares of them.
 #pragma once
 
 #include <span>
@@ -24,19 +24,19 @@ Areas areas_of(const Mesh& a);
 
 float least_float_above(double x);
 
-/// A distance in the frame that is not known better than that.
+/// A distance in the frame, known to lie between two numbers.
 struct Threshold {
   double down, up;
 };
 
-/// A distance of the files in the frame, from below and above what it is on the stored meshes.
+/// Converts a distance of the files to the frame, with bounds of what it is on the stored meshes.
 /// `displacement`: of both, in the frame.
 Threshold threshold_at(const Frame& frame, double displacement, double distance);
 
-/// The wish for percentiles: lengths are in the frame.
+/// A search for percentiles. Lengths are in the frame.
 struct PercentileSearch {
   std::span<const double> shares;
-  double resolution;  ///< bounds are to be so close to the best that the cells say
+  double resolution;  ///< bounds have to be this close to the best that the cells prove
 };
 
 struct Moments {

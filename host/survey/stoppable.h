@@ -10,12 +10,13 @@
 
 namespace vkh {
 
-/// Asked between pieces of work, on the thread that began it; false ends it. Empty: it goes on.
+/// Called between pieces of work, on the thread that began it; false ends the work. Empty: it goes
+/// on.
 using GoesOn = std::function<bool()>;
 
-/// Calls work(i) for all of `count` items, several at once, in pieces of some 20 ms, and asks
-/// `goes_on` before each piece. Returns whether all were done: otherwise the first ones were, and
-/// none of the rest. How large pieces are decides nothing else.
+/// Calls work(i) for all of `count` items, several at once, in pieces of some 20 ms, and calls
+/// `goes_on` before each piece. Returns whether all were done; otherwise only the first ones were.
+/// No result depends on the size of pieces.
 template <class Work>
 bool each_while(size_t count, const GoesOn& goes_on, const Work& work) {
   constexpr size_t kFirst = 64, kRanges = 32, kMostOfRange = 1024;

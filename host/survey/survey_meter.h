@@ -1,4 +1,4 @@
-// Counts what a survey takes of its effort, its time and its caller's patience.
+// Counts a survey's effort and time, and asks its caller whether to go on.
 #pragma once
 
 #include <algorithm>
@@ -8,16 +8,17 @@
 
 namespace vkh {
 
-/// How many cells a submission should have, so that it takes as long as it should. How many they
-/// are decides no result.
+/// The number of cells of a submission that makes it take as long as it should. No result depends
+/// on it.
 class BatchSize {
  public:
   BatchSize(size_t first, size_t most, double submission_ms)
       : size_(first), most_(most), submission_ms_(submission_ms) {}
   size_t size() const { return size_; }
-  /// Notes that a submission of so many cells took so long.
+  /// Notes that a submission of `cells` cells took `ms`.
   void note(size_t cells, double ms) {
-    if (ms <= submission_ms_ && cells < size_) return;  // it tells of costs that all have
+    if (ms <= submission_ms_ && cells < size_)
+      return;  // a short one shows only the cost that every submission has
     const double fits = submission_ms_ * static_cast<double>(cells) / std::max(ms, 1e-6);
     const size_t most = std::min(4 * size_, most_);
     size_ = fits >= static_cast<double>(most) ? most
@@ -43,17 +44,17 @@ class SurveyMeter {
         looks_(on_cpu ? 65536 : kMostLooks, kMostLooks, options.submission_ms),
         sides_(on_cpu ? 1024 : 65536, kMostLooks, options.submission_ms) {}
 
-  /// Whether the caller lets the survey go on, however long it took.
+  /// Whether the caller lets the survey go on, without regard to time.
   bool is_wanted() {
     if (ended_ != SurveyEnd::kCancelled && options_.goes_on && !options_.goes_on(bounded_))
       ended_ = SurveyEnd::kCancelled;
     return ended_ != SurveyEnd::kCancelled;
   }
-  /// Asks the caller first: a survey that was cancelled is none that time ended.
+  /// Asks the caller first, so that a cancelled survey does not count as ended by time.
   bool goes_on() { return goes_on(ended_, ms_of_cells_); }
   /// The same for the work on sides, which has some time of its own.
   bool sides_go_on() { return goes_on(sides_ended_, 1000 * options_.time_limit_s); }
-  /// The reason why one of them was false; before one was, kMet.
+  /// The reason why one of the functions above returned false; kMet if none has.
   SurveyEnd ended() const { return std::max(ended_, sides_ended_); }
 
   size_t effort() const { return effort_; }
@@ -61,8 +62,8 @@ class SurveyMeter {
   void spend(size_t cells) { spent_ += cells; }
 
   BatchSize& bounds() { return bounds_; }  ///< of submissions that bound cells
-  BatchSize& looks() { return looks_; }    ///< of those that look at cells that have bounds
-  BatchSize& sides() { return sides_; }    ///< of those that find their sides
+  BatchSize& looks() { return looks_; }    ///< of submissions that look at cells with bounds
+  BatchSize& sides() { return sides_; }    ///< of submissions that find sides
   double sides_ms() const { return sides_ms_; }
   void note_sides(double ms) { sides_ms_ += ms; }
   size_t bounded() const { return bounded_; }
@@ -78,7 +79,7 @@ class SurveyMeter {
   }
   double device_ms() const { return device_ms_; }
   double ms() const { return ms_before_ + ms_since(start_); }
-  /// Gives what follows a time of its own, whatever ended what came before.
+  /// Begins a new time limit for what follows, and forgets what ended the work before.
   void go_on(double time_limit_s) {
     ms_before_ = ms();
     start_ = Clock::now();

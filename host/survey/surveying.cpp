@@ -88,7 +88,7 @@ void Surveying::run(SurveyResult& result) {
   add_counts(result);
 }
 
-// No distance is above it, in the frame.
+// An upper bound of all distances, in the frame.
 float Surveying::farthest() const {
   const double most = pair_.frame.to_frame(pair_.farthest) * (1 + 1e-6) + pair_.displacement;
   return static_cast<float>(std::min(most * (1 + 1e-6), 1e38));
@@ -142,7 +142,7 @@ SurveyEnd Surveying::refine_faces(size_t effort) {
   return std::max(ended, waves_->refine(goals, effort));
 }
 
-// Nothing is gained by splits of a point.
+// Splitting a point gains nothing.
 SurveyEnd Surveying::refine_or_look(WaveGoals& goals, AreaDistances& distances) {
   if (!pair_.a.are_points) return waves_->refine(goals, meter_.effort(), distances);
   waves_->look(goals, distances);
@@ -198,11 +198,11 @@ void Surveying::add_map(SurveyResult& result) {
   result.map = std::make_shared<const CellMap>(std::move(map));
 }
 
-// They are found where B bounds a solid, and time is left.
+// Sides are added if B bounds a solid and time is left.
 void Surveying::add_cheap_sides(CellMap& map) {
   const Sides sides(pair_, [this] { return meter_.sides_go_on(); });
   if (!sides.is_solid()) return;
-  if (!waves_->find_sides(sides.search(), near_nought(pair_, map, waves_->reached()))) return;
+  if (!waves_->find_sides(sides.search(), near_zero(pair_, map, waves_->reached()))) return;
   add_sides(waves_->read().classes, map);
   map.inside_out = sides.shells().inside_out();
 }

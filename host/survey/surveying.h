@@ -12,10 +12,11 @@
 
 namespace vkh {
 
-/// Its cells stay on the device for more to be asked of them. The host takes a copy for a map.
+/// Its cells stay on the device for further questions. The host reads a copy of them for a map.
 class Surveying {
  public:
-  /// `pair` lies on the device as long as it. Both outlive it. Throws what survey_mesh() names.
+  /// `pair` is on the device as long as this lives. Both arguments outlive it. Throws what
+  /// survey_mesh() names.
   Surveying(const SurveyedPair& pair, const SurveyOptions& options);
   Surveying(const Surveying&) = delete;
   Surveying& operator=(const Surveying&) = delete;
@@ -23,11 +24,11 @@ class Surveying {
   /// Surveys the pair and writes `result`. It is called once.
   void run(SurveyResult& result);
 
-  /// The distribution of A's distances by the cells as they are. A run with statistics came before,
-  /// and found some.
+  /// The distribution of A's distances, by the present cells. Call it after a run that returned
+  /// statistics.
   Distribution distribution() { return {*waves_, areas_, pair_}; }
-  /// Goes on for the pooled percentile, for so long at most, and adds to the result what that took;
-  /// all its figures stay. Returns whether more is known of some cells.
+  /// Goes on for the pooled percentile, for at most `time_limit_s`, and adds the cost to the
+  /// result, whose figures stay. Returns whether some cells are better known.
   bool narrow(const PooledSearch& search, double time_limit_s, SurveyResult& result);
 
  private:

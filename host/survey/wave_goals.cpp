@@ -24,7 +24,7 @@ void add_open(const Threshold& at, double weight, gpu::SurveyPlan& plan, uint32_
 
 FigureGoals::FigureGoals(const SurveyOptions& options, const SurveyedPair& pair, double farthest)
     : asked_(options, pair) {
-  // The share that is kept is sought as narrowly as any share.
+  // The kept share has the same goal as any share.
   if (options.max_distance) asked_.options.bands.push_back(options.max_distance->within);
   for (const Threshold& band : asked_.bands()) bands_.push_back({band});
   for (const double share : options.percentiles) {
@@ -53,7 +53,7 @@ std::optional<Threshold> FigureGoals::wanted_moments() const {
   return asked_.most();
 }
 
-// A goal that is met stays so: what is known of it holds for parts of cells, too.
+// A goal that is met stays met, since bounds of cells hold for their parts.
 std::vector<Threshold> FigureGoals::thresholds() const {
   std::vector<Threshold> at;
   for (size_t i = 0; i < bands_.size(); ++i) {

@@ -1,5 +1,5 @@
-// How far a survey by waves has got with each figure, what it asks the next tally, and how much the
-// next wave's cells score.
+// The goals of a survey by waves: the state of each figure, the thresholds of the next tally, and
+// the scores of the next wave's cells.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 
 namespace vkh {
 
-/// So much of the scores is split in one pass, the largest first: nine tenths, since a few cells
-/// that are wide often matter more than all others together.
+/// The part of all scores that is split in one pass, the largest first: nine tenths, since a few
+/// wide cells often matter more than all others together.
 inline constexpr double kNearlyAll = 0.9;
-/// The part of the scores to split where a figure is to be so narrow: halves have together about
-/// half of the width of a cell, so that twice what is too much is enough.
+/// The part of the scores to split so that a figure becomes as narrow as `enough`: the halves of a
+/// cell have together about half of its width, so splitting twice the excess is enough.
 inline double part_to_split(double width, double enough) {
   return std::clamp(2 * (width - enough) / width, 0.05, kNearlyAll);
 }
@@ -28,33 +28,33 @@ class WaveGoals {
   virtual ~WaveGoals() = default;
   /// The thresholds for the next tally. They follow from what is known.
   virtual std::vector<Threshold> thresholds() const { return {}; }
-  /// Set if the next tally is asked for moments, too: a distance beyond it counts as 0.
+  /// Set if the next tally has to have moments, too: distances beyond it count as 0.
   virtual std::optional<Threshold> wanted_moments() const { return {}; }
-  /// Takes in a tally at them. Returns whether another one would narrow a percentile before any
-  /// cell is split, since the thresholds were farther apart than the cells' bounds are.
+  /// Uses a tally at these thresholds. Returns whether another tally would narrow a percentile
+  /// without a split, since the thresholds were farther apart than the cells' bounds.
   virtual bool look(const Tallied& tallied) = 0;
   /// Whether splits would gain nothing.
   virtual bool are_met() const = 0;
-  /// How a survey ends where no cell scores and they are not met. `is_stuck`: some cell is in its
-  /// face's way, and no split helps.
+  /// The end of a survey if no cell scores and the goals are not met. `is_stuck`: some cell keeps
+  /// its face open, and no split helps.
   virtual SurveyEnd at_rest(bool /*is_stuck*/) const { return SurveyEnd::kBits; }
   /// Scores a cell by its part of the widths of all figures that are open.
   virtual gpu::SurveyPlan plan(double whole) const = 0;
-  /// So much of all scores is worth a wave's splits.
+  /// The part of all scores that a wave should split.
   virtual double part() const = 0;
-  /// Whether a wave pays that splits so many of so many cells.
+  /// Whether a wave pays: the cells that it would split, and all cells.
   virtual bool is_worth(size_t, size_t) const { return true; }
   /// The parts that a cell is split into.
   virtual uint32_t parts() const { return 4; }
 };
 
-/// Scores cells of some classes by their undecided area at a threshold. A plan has room for some:
-/// the others are sought later.
+/// Scores cells of some classes by their undecided area at a threshold. A plan has room for some of
+/// them; the others wait for later waves.
 void add_open(const Threshold& at, double weight, gpu::SurveyPlan& plan,
               uint32_t classes = gpu::kAllClasses);
 
-/// A figure's whole width scores 1; it is not 0 where the figure is open, but for shares of
-/// percentiles, whose ends are known by the thresholds alone.
+/// The weight with which a figure's whole width scores 1. The width is not 0 while the figure is
+/// open, except for shares of percentiles, whose ends are only known by thresholds.
 double weight_of_width(double width);
 
 /// The figures that options ask for.

@@ -12,7 +12,8 @@
 namespace vkh {
 namespace {
 
-constexpr size_t kFewestParents = 512;  // for a wave, whose other steps look at all cells
+constexpr size_t kFewestParents =
+    512;  // for a wave: its other steps look at all cells, so fewer would not pay
 
 // The score in the middle of a bin.
 double score_of(size_t bin) {
@@ -59,9 +60,10 @@ WaveSurvey::WaveSurvey(const SurveyedPair& pair, const Areas& areas, SurveyMeter
   bound_fresh(cells_.count());
 }
 
-// Bounds new cells in submissions, until time or the caller ends it: those that are left have what
-// was known before. The first one is not asked for. The last one is submitted with the tally that
-// follows, unless others showed how long it takes.
+// Bounds new cells in submissions, until time or the caller ends it; the cells that are left keep
+// the bounds of their parents. If nothing is bounded yet, the first submission is made without
+// asking the caller. A single submission is not waited for, so that the tally that follows goes
+// with it.
 bool WaveSurvey::bound_fresh(size_t count) {
   for (size_t first = 0; first < count;) {
     if (meter_.bounded() > 0 && !meter_.goes_on()) return false;
@@ -76,8 +78,8 @@ bool WaveSurvey::bound_fresh(size_t count) {
   return true;
 }
 
-// Goes over all cells in submissions of this size for as long as `goes_on`; returns whether it saw
-// all of them.
+// Visits all cells in submissions of this size, as long as `goes_on` returns true; returns whether
+// it saw all of them.
 template <class GoesOn, class Look>
 bool WaveSurvey::go_over_cells(BatchSize& size, const GoesOn& goes_on, const Look& look) {
   for (size_t first = 0; first < cells_.count();) {
@@ -90,7 +92,8 @@ bool WaveSurvey::go_over_cells(BatchSize& size, const GoesOn& goes_on, const Loo
   return true;
 }
 
-// Looks at all cells, until the caller ends it, if he may; returns whether he did not.
+// Looks at all cells, unless the caller ends it, if that is allowed. Returns whether it was not
+// ended.
 template <class Look>
 bool WaveSurvey::look_at_cells(bool may_end, const Look& look) {
   return go_over_cells(
@@ -123,7 +126,7 @@ std::optional<Tallied> WaveSurvey::tally_now(const Tally& asked, bool may_end) {
     const TallyEdges at = edges_of(asked.at.subspan(first, count));
     const int unit = asked.of_normals ? kCosineUnit : unit_;
     if (!add_up(plan_of(at, asked), unit, may_end)) return {};
-    AreaTable(table_, at, weights_, unit).tell(asked, all);
+    AreaTable(table_, at, weights_, unit).answer(asked, all);
     first += count;
   } while (first < asked.at.size());
   return all;
@@ -173,7 +176,7 @@ bool WaveSurvey::find_fresh_normals() {
                               [&](const CellRange& some) { cells_.find_normals(some); });
 }
 
-// Splits the cells that matter most, and bounds their parts; otherwise says why not.
+// Splits the cells that matter most, and bounds their parts. If it does not, `ended` says why.
 bool WaveSurvey::split(WaveGoals& goals, size_t effort, SurveyEnd& ended) {
   const gpu::SurveyPlan plan = goals.plan(weights_.whole);
   if (!score(plan)) {
@@ -243,7 +246,8 @@ CellsRead WaveSurvey::read(const CellRange& some) {
   return cells;
 }
 
-// A submission has as many points as one that looks at cells, whose bounds come and go.
+// A submission has as many points as a submission that looks at cells, since their bounds are
+// copied back and forth.
 PointDistances::Measured WaveSurvey::measure(const PointDistances::Asked& asked, size_t most) {
   if (!distances_) distances_.emplace(pair_);
   PointDistances::Measured all;

@@ -1,6 +1,6 @@
-// A survey by waves: cells stay on the device, where each wave scores them, splits those that
-// matter most, bounds their parts and adds up what all of them tell of A. The host reads a table
-// and plans.
+// A survey by waves: cells stay on the device, where each wave scores them, splits the most
+// important ones, bounds their parts and adds up all cells' figures. The host reads a table and
+// plans.
 #pragma once
 
 #include <cmath>
@@ -30,37 +30,38 @@ class WaveSurvey : public AreaDistances {
   /// Refines until the goals are met, or cannot be, by `effort` bounded cells at most since the
   /// survey began.
   SurveyEnd refine(WaveGoals& goals, size_t effort) { return refine(goals, effort, *this); }
-  /// The same for goals of distances that are told otherwise.
+  /// The same for goals about another distribution, such as that of signed distances.
   SurveyEnd refine(WaveGoals& goals, size_t effort, AreaDistances& distances);
   /// Looks at all cells for the goals, and splits none.
   void look(WaveGoals& goals, AreaDistances& distances);
   /// Finds the sides of all cells that are farther than `above` somewhere, in the frame, and from
-  /// now on those of new ones; returns whether it was not ended. What the search names outlives it.
+  /// now on of new cells, too. Returns whether it was not ended. The search's data outlive it.
   bool find_sides(const SideSearch& search, double above);
-  /// New cells need no side from now on, and the search is asked for nothing more.
+  /// From now on new cells get no side, and the search is not used any more.
   void end_sides() { sides_.reset(); }
-  /// Compares normals on all cells, which lose their sides, and from now on on new ones; returns
-  /// whether it was not ended. What the search names lives until end_normals().
+  /// Compares normals on all cells, which lose their sides, and on new cells from now on. Returns
+  /// whether it was not ended. The search's data live until end_normals().
   bool find_normals(const NormalSearch& search);
   void end_normals() { has_normals_ = false; }
-  /// Measures points of A that matter, up to so many.
+  /// Measures points of A that matter, at most `most`.
   PointDistances::Measured measure(const PointDistances::Asked& asked, size_t most);
 
   size_t count() const { return cells_.count(); }
-  /// Returns a distance that some point of each face reaches; and then one that none exceeds.
+  /// Returns, for each face, a distance that some point reaches, and then, for each, one that no
+  /// point exceeds.
   const std::vector<float>& faces();
-  /// The same of those cells of each face that are of the one set of classes, and of the other.
+  /// The same for the cells of each face in one set of classes, and in the other.
   std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes);
   CellsRead read(const CellRange& some);
   CellsRead read() { return read({0, static_cast<uint32_t>(count())}); }
-  /// No distance is above it, in the frame.
+  /// An upper bound of all distances, in the frame.
   double farthest() const { return std::ldexp(1.0, unit_ - 127); }
 
-  /// Tells what earlier tallies did once the caller has called the survey off.
+  /// Returns the results of earlier tallies once the caller has called the survey off.
   Tallied tally(const Tally& asked) override;
-  /// Tells what the cells of some classes do, unless the caller has called the survey off.
+  /// Tallies the cells of some classes, unless the caller has called the survey off.
   std::optional<Tallied> tally_now(const Tally& asked);
-  /// The same even then: for the figures of sides, of which little is known otherwise.
+  /// Does so even then, for the figures of sides, which have few other bounds.
   Tallied tally_anyway(const Tally& asked);
   std::vector<Enclosure> percentiles(const PercentileSearch& search) override;
   double reached() override { return largest(0); }
