@@ -8,7 +8,7 @@
 
 namespace vkh {
 
-/// Lets a thread go on that nothing joins (system_posix.cpp, system_windows.cpp).
+/// Leaves a thread running that nothing joins (system_posix.cpp, system_windows.cpp).
 void leave_thread(std::thread thread);
 
 /// Runs `work` on a thread of its own or, if none is available, when its result is requested. No

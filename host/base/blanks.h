@@ -5,7 +5,7 @@
 
 namespace vkh {
 
-/// Whether C's isspace() holds for it, whatever the locale.
+/// Whether C's isspace() holds for it in the locale C.
 inline bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 /// The text without the blank space around it.

@@ -18,8 +18,8 @@ inline void refuse_utf16(std::string_view name, std::string_view begin) {
     reject(name, "byte 0", "UTF-16 text", "ASCII or UTF-8");
 }
 
-/// Reads past the mark if the text begins with one, and refuses that of UTF-16. A text that begins
-/// otherwise may be a pipe.
+/// Reads past the mark if the text begins with one, and refuses UTF-16's. A text without a mark may
+/// be a pipe.
 inline void skip_byte_order_mark(std::istream& text, std::string_view name) {
   const int first = text.peek();
   if (first == 0xff || first == 0xfe) {

@@ -8,9 +8,9 @@
 
 namespace vkh {
 
-/// The names that are nearest to `word`, all as near, by no more than `most` letters to insert, to
-/// leave out or to replace. Nearer are fewer of them, then the same first letter, then the same
-/// length. Empty: none is near.
+/// The names that are nearest to `word`: equally near, and at most `most` letters to insert, delete
+/// or replace away. Fewer letters are nearer, then the same first letter, then the same length.
+/// Empty: no name is near.
 std::vector<std::string> closest_names(std::string_view word, const std::vector<std::string>& names,
                                        size_t most);
 

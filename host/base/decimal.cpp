@@ -138,7 +138,8 @@ std::string decimal(double value, int digits, Rounding rounding) {
 std::string decimal_inside(double value, double lower, double upper, int digits) {
   if (!std::isfinite(value) || value == 0) return decimal(value, 1, Rounding::kDown);
   if (value < 0) return "-" + decimal_inside(-value, -upper, -lower, digits);
-  constexpr int kEnough = 20;  // neighbouring doubles have a decimal of so many digits between them
+  constexpr int kEnough =
+      20;  // neighbouring doubles always have a decimal of 20 digits between them
   const Digits exact = exact_digits(value);
   const Ends ends = ends_of(lower, upper);
   const int most = lower < upper ? kEnough : kJsonDigits - 1;

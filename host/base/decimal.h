@@ -17,10 +17,11 @@ inline constexpr int kJsonDigits = 18;  ///< rounded outward, and read back as t
 /// is no number.
 std::string decimal(double value, int digits, Rounding rounding);
 
-/// Writes `value`, which lies in [lower, upper], without saying "at least" or "at most": the
-/// decimal of the fewest digits, `digits` or more, that lies in [lower, upper], too. Of the two
-/// that are next to `value` it is the nearer one, if it is inside. Where both ends are one double
-/// that has more than 17 digits, it is the shortest decimal that is read back as that double.
+/// Writes `value`, which lies in [lower, upper], as a number that is neither a lower nor an upper
+/// bound: the decimal of the fewest digits, `digits` or more, that lies in [lower, upper], too. Of
+/// the two that are next to `value` it is the nearer one, if it is inside. Where both ends are one
+/// double that has more than 17 digits, it is the shortest decimal that is read back as that
+/// double.
 std::string decimal_inside(double value, double lower, double upper, int digits);
 
 /// The decimal of the fewest digits that is read back as `value` and lies between the ends as JSON

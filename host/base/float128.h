@@ -1,6 +1,6 @@
 // Numbers of 113 bits: exact enough to check a certificate of 24 or 48 bits with room to spare.
-// They are integers underneath, so that every compiler and processor gives the same bits, whatever
-// its rounding mode.
+// They are integers underneath, so that every compiler and processor gives the same bits, in every
+// rounding mode.
 #pragma once
 
 #include <compare>
@@ -11,10 +11,10 @@
 
 namespace vkh {
 
-/// A binary floating-point number as IEEE 754's binary128, but for its exponent of 32 bits, which
-/// nothing here reaches the ends of: sums, products and quotients are rounded to nearest, ties to
-/// even, and so off by 2^-113 of themselves at most. Infinities, NaN and zeros of two signs behave
-/// as those of double. A double becomes one exactly.
+/// A binary floating-point number like IEEE 754's binary128, except that its exponent has 32 bits,
+/// whose range is never exhausted here. Sums, products and quotients are rounded to nearest, ties
+/// to even, and so off by 2^-113 of themselves at most. Infinities, NaN and zeros of two signs
+/// behave as those of double. A double becomes one exactly.
 class Float128 {
  public:
   constexpr Float128() = default;

@@ -1,4 +1,4 @@
-// The floating-point environment that the host's arithmetic needs, whatever the caller's is.
+// The floating-point environment that the host's arithmetic needs, in place of the caller's.
 #pragma once
 
 #include <cfenv>
@@ -17,9 +17,9 @@ namespace vkh {
 static_assert(FLT_EVAL_METHOD == 0, "a double operation is rounded to double, and once");
 static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<float>::is_iec559);
 
-/// While it lives, this thread rounds to nearest, flushes nothing to zero and traps nothing. Its
-/// destructor restores the caller's state, exception flags too. Libraries that are linked with
-/// -ffast-math leave threads that flush. Every public boundary has one.
+/// While this object lives, its thread rounds to nearest, flushes nothing to zero and traps
+/// nothing. The destructor restores the caller's state, with its exception flags. Libraries that
+/// are linked with -ffast-math leave threads that flush. Every public boundary has one.
 class FloatEnvironment {
  public:
   FloatEnvironment() { enter(); }

@@ -8,8 +8,8 @@
 namespace vkh {
 
 #ifndef _WIN32
-/// The same by strtod_l in the locale C, for decimals and for `format` hex (without 0x), but not
-/// for inf and nan, which are refused: the double nearest to the number, whatever the locale.
+/// The same by strtod_l in the locale C, for decimals and for `format` hex (without 0x); refuses
+/// inf and nan. Returns the double nearest to the number, in any locale of the program.
 std::from_chars_result from_chars_by_strtod(const char* first, const char* last, double& value,
                                             std::chars_format format = std::chars_format::general);
 #endif

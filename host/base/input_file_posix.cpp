@@ -9,7 +9,7 @@
 
 namespace vkh {
 
-// Opens no pipe: its writer would meet a reader that goes away.
+// Does not open pipes: the writer would see a reader that goes away.
 InputFile::InputFile(const std::filesystem::path& path) {
   struct stat known = {};
   if (stat(path.c_str(), &known) != 0 || !S_ISREG(known.st_mode)) return;

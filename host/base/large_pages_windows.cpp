@@ -2,7 +2,7 @@
 
 namespace vkh {
 
-// They need a privilege there.
+// Does nothing: on Windows large pages need a privilege.
 void prefer_large_pages(void*, size_t) {}
 
 }  // namespace vkh

@@ -1,4 +1,4 @@
-// Values by key, each made once, by whichever thread asks first.
+// Values by key. The first thread that asks for a value makes it, once.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ template <class Key, class Value>
 class MadeOnce {
  public:
   /// Returns what make() returned for this key, or throws what it threw. A thread that asks while
-  /// another makes it waits.
+  /// another one makes the value waits.
   template <class Make>
   Value get(const Key& key, const Make& make) {
     std::promise<Value> mine;
@@ -29,12 +29,12 @@ class MadeOnce {
     }
   }
 
-  /// Forgets a value, which threads that wait for it get all the same.
+  /// Forgets a value. Threads that wait for it still get it.
   void forget(const Key& key) {
     const std::lock_guard lock(mutex_);
     values_.erase(key);
   }
-  /// Forgets the values of which this is true. No value may be an error.
+  /// Forgets the values for which `is` returns true. No value may be an error.
   template <class Is>
   void forget_where(const Is& is) {
     const std::lock_guard lock(mutex_);
@@ -46,7 +46,8 @@ class MadeOnce {
   }
 
  private:
-  /// Returns the value of another thread; nothing: `mine` is that of this key from now on.
+  /// Returns the value that another thread makes. If there is none, returns nothing, and `mine` is
+  /// the promise of this key from now on.
   std::shared_future<Value> known_or(const Key& key, std::promise<Value>& mine) {
     const std::lock_guard lock(mutex_);
     const auto [known, is_new] = values_.try_emplace(key);

@@ -15,7 +15,7 @@
 namespace vkh {
 namespace {
 
-/// A unit as people type it, in lower case: so many of a unit of lengths, an exact fraction.
+/// A unit as people type it, in lower case: times / over of a known unit of lengths.
 struct TypedUnit {
   std::string_view typed, unit;
   double times = 1, over = 1;  ///< whole numbers
@@ -160,7 +160,7 @@ std::string length_meant(const std::string& text) {
   const std::string thousands = as_parsed(without_commas(number), *unit);
   number[comma] = '.';
   const std::string decimal = as_parsed(number, *unit);
-  // A number such as 0,100 has no thousands.
+  // A number such as 0,100 has no thousands separator.
   const bool is_either = number.size() == comma + 4 && comma > 0 && number[0] != '0';
   return is_either && !decimal.empty() ? decimal + " or " + thousands : decimal;
 }

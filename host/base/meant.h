@@ -1,4 +1,4 @@
-// Guesses the length or unit that a user meant by a text that is none: "0,1mm", "4mil", "inch".
+// Guesses the length or unit that a user meant by an invalid text: "0,1mm", "4mil", "inch".
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 namespace vkh {
 
 /// Returns how to write the length that `text` may be, such as "0.1mm", or "1.000mm or 1000mm" if
-/// it may be two. Returns `text` itself if it is already so written, and nothing if it has no known
-/// unit or length.
+/// it may be two. Returns `text` itself if it is valid, and nothing if it has no known unit or
+/// length.
 std::string length_meant(const std::string& text);
 
 /// The unit that `text` may be, such as "in"; else nothing.

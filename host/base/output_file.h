@@ -9,16 +9,16 @@
 
 namespace vkh {
 
-/// A regular file is written beside its place and renamed, so that an older one is whole until the
-/// new one is; if that cannot be, as for a file that is mounted by itself, it is written over.
-/// Links are followed: their target is replaced. Pipes, terminals and the file that is already
-/// standard output are not replaced but written to. output_file_posix.cpp and
-/// output_file_windows.cpp are its two implementations.
+/// A regular file is written beside its place and renamed, so that an older file stays whole until
+/// the new one is. If renaming is impossible, as for a file that is a mount point, the older file
+/// is overwritten. Links are followed: their target is replaced. Pipes, terminals and the file that
+/// is already standard output are written to, not replaced. The implementations are
+/// output_file_posix.cpp and output_file_windows.cpp.
 class OutputFile {
  public:
   /// Names `option` in messages. Throws UsageError, and has changed nothing, if `path` is one of
   /// `inputs` under any name, or cannot be written. A pipe without a reader is refused: opening it
-  /// would wait for one, without end if none comes.
+  /// would wait for one, perhaps forever.
   OutputFile(std::string option, std::string path, const std::vector<std::string>& inputs);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -27,8 +27,8 @@ class OutputFile {
   /// Called with the whole file before it has its name; throws if it must not have that.
   using Check = std::function<void(const std::string&)>;
 
-  /// Throws OutputError, and what `check` throws: the older file, if any, is then as it was. What
-  /// is not replaced but written to is not checked.
+  /// Throws OutputError, and what `check` throws: an older file is then unchanged. Pipes and
+  /// terminals are not checked.
   void write(std::string_view text, const Check& check = {}) const;
   /// Whether the file is replaced: false for pipes, terminals and standard output.
   bool is_replaced() const { return special_ == -1; }
@@ -64,7 +64,7 @@ class LineFile {
   /// ended while it wrote them. Throws OutputError.
   void read(const std::function<void(std::string_view)>& take);
   /// Throws OutputError after taking away the written part of the line. A reader of the file sees
-  /// the line once this returns, whatever becomes of this process.
+  /// the line once this returns, even if this process ends.
   void append(std::string_view line);
   void sync() const;  ///< keeps lines through a power loss, once this returns
 

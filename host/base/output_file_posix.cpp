@@ -70,7 +70,7 @@ int create_beside(const std::string& folder, mode_t mode, std::string& name) {
   return -1;
 }
 
-/// Takes the file away again where the check throws.
+/// Removes the file again if the check throws.
 void check_beside(const std::string& beside, const OutputFile::Check& check) {
   try {
     if (check) check(beside);
@@ -122,14 +122,14 @@ void OutputFile::fail(const std::string& reason) const {
   throw OutputError({.option = option_, .file = path_, .problem = "cannot be written: " + reason});
 }
 
-// Keeps the file open until it is written to: a pipe's reader would take its closing for the end.
-// O_NONBLOCK is for the opening alone, which would wait for a reader.
+// Keeps the file open until it is written to: a pipe's reader would take closing it for the end.
+// O_NONBLOCK is only for opening, which would otherwise wait for a reader.
 void OutputFile::open_special(unsigned mode) {
   if (S_ISBLK(mode)) refuse("is a disk, not a file");
   const int file = open(path_.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
   special_ = file;
   if (file >= 0 && fcntl(file, F_SETFL, 0) == 0) return;
-  if (errno == ENXIO && S_ISFIFO(mode)) refuse("a pipe that nobody reads: start its reader first");
+  if (errno == ENXIO && S_ISFIFO(mode)) refuse("a pipe without a reader: start the reader first");
   refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
 }
 
@@ -196,7 +196,7 @@ LineFile::LineFile(std::string option, std::string path, const std::vector<std::
   const int file = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file < 0) refuse(std::string("cannot be opened for writing: ") + std::strerror(errno));
   file_ = file;
-  // Some file systems have no locks: then no process is kept out.
+  // Some file systems have no locks: then other processes are not kept out.
   const bool is_taken = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (is_taken) close(file);
   if (is_taken) refuse("another process writes to it");

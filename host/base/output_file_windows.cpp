@@ -112,7 +112,7 @@ bool write_all(HANDLE file, std::string_view text) {
   return true;
 }
 
-/// Takes the file away again where the check throws.
+/// Removes the file again if the check throws.
 void check_beside(const fs::path& beside, const OutputFile::Check& check) {
   try {
     if (check) check(name_of(beside));
@@ -185,12 +185,12 @@ void OutputFile::open_special(unsigned kind) {
   }
   const DWORD error = GetLastError();
   if (kind == FILE_TYPE_PIPE && error == ERROR_FILE_NOT_FOUND)
-    refuse("a pipe that nobody reads: start its reader first");
+    refuse("a pipe without a reader: start the reader first");
   refuse("cannot be opened for writing: " + text_of(error));
 }
 
-// Checks the folder early: an answer that took an hour must not meet a missing one. Only a trial
-// shows what access lists allow; the file of the trial is gone as it is closed.
+// Checks the folder early: an answer that took an hour must not meet a missing one. Only creating a
+// file shows what access lists allow; that file is deleted when it is closed.
 void OutputFile::check_place() const {
   const fs::path target = path_of(target_), folder = folder_of(target);
   if (target.filename().empty()) refuse("is a folder's name");

@@ -8,8 +8,8 @@ namespace vkh {
 
 using Json = nlohmann::ordered_json;
 
-/// Text that is no JSON gives a discarded value. It stands in a room that is optimized: parsing is
-/// most of the time of reading a result line.
+/// Returns a discarded value for text that is no JSON. It is in this room because that is
+/// optimised: reading a result line is mostly parsing.
 Json parse_json(std::string_view text);
 
 }  // namespace vkh

@@ -12,7 +12,7 @@ namespace vkh {
 class SerialGuard {
  public:
   /// Waits while other threads hold the guard. Throws UsageError if this thread already holds it,
-  /// since it would wait without end.
+  /// since it would wait forever.
   class Hold {
    public:
     explicit Hold(SerialGuard& guard) : guard_(guard) {

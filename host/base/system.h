@@ -43,8 +43,8 @@ inline std::filesystem::path place_of(const std::string& name) {
 /// The words after the program's name on the command line.
 std::vector<std::string> command_line(int argc, const char* const* argv);
 
-/// While it lives, standard output and error take UTF-8, and lines that end in LF alone. A console
-/// is then left as it was found. Standard error may be buffered.
+/// While this object lives, standard output and error accept UTF-8, and LF as the end of a line.
+/// The destructor restores the console. Standard error may be buffered.
 class Console {
  public:
   Console();
@@ -71,7 +71,7 @@ unsigned long process_id();
 std::string host_name();
 
 /// The processor's name, such as "AMD EPYC 7763 64-Core Processor"; "unknown processor" if the
-/// system does not say it.
+/// system does not name it.
 std::string processor_name();
 
 /// Ends the program now, without exit handlers, and without the libraries' own: our threads may be

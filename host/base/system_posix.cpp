@@ -18,8 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A signal handler can reach nothing but a global, and other threads than the handler's read this
-// one.
+// Global, since a signal handler can reach nothing else; atomic, since other threads read it.
 std::atomic<bool> g_interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
@@ -83,7 +82,7 @@ std::string processor_name() {
   return is_known && name[0] != '\0' ? name.data() : machine_name();
 }
 #else
-// Linux names no processor on ARM; the machine's kind is then all that there is.
+// Linux names no processor on ARM; then only the machine's kind is known.
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {

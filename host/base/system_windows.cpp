@@ -105,7 +105,7 @@ std::string processor_name() {
 unsigned long process_id() { return GetCurrentProcessId(); }
 
 // Avoids ExitProcess, which _Exit calls: it ends the other threads first, then notifies every
-// library, and waits without end for a lock that one of those threads held.
+// library, and may wait forever for a lock that one of those threads held.
 void end_process(int code) {
   TerminateProcess(GetCurrentProcess(), static_cast<UINT>(code));
   std::abort();  // TerminateProcess does not return

@@ -21,7 +21,7 @@ class ThreadPool {
  public:
   ThreadPool() = default;
   /// Uses one thread per core for `threads` of 0. One thread at a time calls `keep_going`, and none
-  /// does after it returned false; then every call of the pool ends with Interrupted, whose text is
+  /// after it has returned false. Then every call of the pool ends with Interrupted, whose text is
   /// `called_off`.
   ThreadPool(size_t threads, std::function<bool()> keep_going, std::string called_off)
       : threads_(threads == 0 ? thread_count() : threads),
@@ -88,8 +88,8 @@ Array<T> filled(const ThreadPool& pool, size_t size, T value) {
   return array;
 }
 
-/// Resizes an empty vector, but is called off in time. A system gives memory page by page as it is
-/// first written to, which takes longer than the writing: so each thread touches some.
+/// Resizes an empty vector, and can be called off. A system gives out memory page by page at the
+/// first write, which takes longer than writing: so each thread touches some pages.
 template <class T>
 void resize_together(const ThreadPool& pool, std::vector<T>& vector, size_t size) {
   constexpr size_t kPage = 4096;

@@ -36,11 +36,12 @@ std::vector<std::string> inputs_of(const BatchJob& job) {
   return files;
 }
 
-/// The file of results, with the lines of earlier runs, and the totals of all. Threads may share
-/// it.
+/// The file of results with the lines of earlier runs, and the totals of all lines. Threads may
+/// share it.
 class ResultLines {
  public:
-  /// Throws UsageError for a file that has results and is not to be resumed, or has others.
+  /// Throws UsageError for a file that has results but is not to be resumed, or that has other
+  /// content.
   explicit ResultLines(const BatchJob& job)
       : job_(job), file_("--out", job.results, inputs_of(job)) {
     if (file_.size() > 0 && !file_.begins_with(kResultStart))
@@ -54,7 +55,7 @@ class ResultLines {
     read_older();
   }
 
-  /// Whether an earlier run has done all of this pair, which then counts.
+  /// Whether an earlier run has done all of this pair. If so, its line counts.
   bool keep(const ResultName& name, bool symmetric) {
     const auto older = older_.find(name.id);
     if (older == older_.end() || !older->second.is_final || older->second.key != name.key)
@@ -69,7 +70,7 @@ class ResultLines {
     return true;
   }
 
-  /// Adds a line. Returns whether the batch is to go on; not where the pair ends it. Throws
+  /// Adds a line. Returns whether the batch goes on: false if this pair ends it. Throws
   /// OutputError.
   bool write(const Result& result) {
     const std::string line = to_line(result);
@@ -177,7 +178,7 @@ class ListedPair : public StreamedPair {
   bool has_more() const override { return batch_.job.folders || is_surveyed(); }
   void finish(AskedPair& solved, Solver& solver) override;
 
-  /// The pair's line; nothing if it is to be done again.
+  /// The pair's line; nothing if the pair has to be done again.
   std::optional<Result> result() const;
 
  private:
@@ -189,8 +190,8 @@ class ListedPair : public StreamedPair {
   NamedEntry named_;
 };
 
-// Surveys what was asked, and what its pictures show, at once. The time of a pair is for its
-// survey, too.
+// Makes one survey for what was asked and for what the pictures show. The time limit of a pair
+// includes its survey.
 void ListedPair::survey(AskedPair& solved, Solver& solver) const {
   const Clock::time_point start = Clock::now();
   Answer& answer = solved.answer();
@@ -258,7 +259,8 @@ void take(Running& batch, const StreamedPair& ended) {
   }
 }
 
-/// Returns nothing if the batch was to stop but a part of it does not: its threads are left behind.
+/// Returns nothing if the batch was told to stop but a part of it does not: its threads are then
+/// left running.
 std::optional<ExitCode> run(Running& batch, AskingStream& stream, std::ostream& out) {
   constexpr double kGrace = 10;  // seconds for a submission on a slow device
   auto working = begin_now([&] {

@@ -27,7 +27,7 @@ struct BatchJob {
 };
 
 /// Returns the worst code of all pairs, or kExitNotClosed if the batch was interrupted. Prints the
-/// totals to `out`. Throws UsageError for a file that has results and is not to be resumed;
+/// totals to `out`. Throws UsageError for a file that has results but is not to be resumed;
 /// DeviceError if no device is left, OutputError if a line cannot be written: lines already written
 /// stay.
 ExitCode run_batch(const BatchJob& job, std::ostream& out);

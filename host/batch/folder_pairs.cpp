@@ -1,4 +1,4 @@
-// Two folders as a list of pairs: what has the same stem in both is a pair.
+// Makes a list of pairs from two folders: files with the same stem are a pair.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -13,7 +13,7 @@
 namespace vkh {
 namespace {
 
-/// A folder's meshes by their stems, and the names of what else there is.
+/// A folder's meshes by their stems, and the names of its other files.
 struct FolderOfMeshes {
   std::string folder;
   std::map<std::string, std::string> files;  ///< the paths that open from here

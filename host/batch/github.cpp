@@ -45,7 +45,7 @@ OfPair texts_of(const Result& result, const Entry& entry) {
   return pair;
 }
 
-/// The outcome of a batch: that of its worst pair, or open where pairs are left.
+/// The outcome of a batch: its worst pair's, or open if pairs are left.
 Outcome outcome_of(const std::vector<OfPair>& pairs, size_t left) {
   const Outcome worst = pairs.empty() ? Outcome::kWithin : pairs[0].rank.outcome;
   return left > 0 ? std::min(worst, Outcome::kOpen) : worst;

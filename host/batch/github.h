@@ -8,8 +8,8 @@
 namespace vkh {
 
 struct GithubTexts {
-  /// An annotation of all pairs, then one of each that is no PASS or has notes, the worst first:
-  /// GitHub shows ten errors and ten warnings of a step.
+  /// An annotation about all pairs, and then one for each pair that is no PASS or has notes, the
+  /// worst first: GitHub shows ten errors and ten warnings per step.
   std::string annotations;
   std::string summary;  ///< Markdown for the run's page: all pairs, and a table of the worst
 };

@@ -53,8 +53,8 @@ std::string limit_in_words(const Result& result) {
   return share.empty() ? "" : "at least " + share + " times";
 }
 
-/// The interval, or the lower end alone if a run ended beyond its limit: its upper end means
-/// nothing.
+/// The interval, or only the lower end if a run ended beyond its limit, since its upper end then
+/// means nothing.
 std::string deviation_in_words(const Result& result) {
   const CertifiedInterval whole = interval_of(result.answer);
   const Enclosure deviation{whole.lower, result.is_upper_sought()
@@ -99,7 +99,7 @@ Json heading_of(const std::string& words) {
           {"rest", rest}};
 }
 
-/// The words of a result without what another run should ask for.
+/// The words of a result without the advice for another run.
 std::string without_advice(const std::string& words) {
   const size_t end = std::min(
       {words.find("; ask for "), words.find(". A to B only"), words.find("; --"), words.size()});

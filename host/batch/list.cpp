@@ -36,7 +36,7 @@ std::string Entry::*needed(const std::string& name) {
   return found == kNeeded.end() ? nullptr : found->text;
 }
 
-/// Returns the column that a name which is none may mean; else nothing.
+/// Returns the column that an unknown name may mean; else nothing.
 std::string meant_by(const std::string& name) {
   std::vector<KnownName> known;
   known.reserve(kNeeded.size() + options().size());
@@ -98,7 +98,7 @@ class Collected {
     }
     list.entries.push_back(std::move(entry));
   }
-  /// Refuses a name that nearly is one of ours: a limit that is passed over gives no verdict.
+  /// Refuses a name that is nearly a known one: a limit that is ignored would give no verdict.
   void note_stranger(const std::string& name, uint64_t line) {
     const std::string meant = meant_by(name);
     if (!meant.empty())

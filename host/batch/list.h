@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// A pair. What it does not ask for itself is the batch's.
+/// A pair. For what it does not ask itself, the batch's options hold.
 struct Entry {
   std::string id;
   std::string a, b;            ///< the names in the list, for people
@@ -47,9 +47,9 @@ struct FolderOfFiles {
 };
 
 /// Pairs the meshes of two folders by their stems, letter by letter, in the stems' order: a stem,
-/// the name without its last extension, is the id. Files beneath folders in them are left out, as
-/// are names that are none of a mesh. Throws UsageError if one is no folder or both are one, and
-/// InputError if two meshes of a folder have one stem, or no mesh has a partner.
+/// the name without its last extension, is the id. Leaves out subfolders, and names without the
+/// extension of a mesh. Throws UsageError if a path is no folder or both are the same folder, and
+/// InputError if two meshes of a folder have the same stem, or if no mesh has a partner.
 PairList list_folders(const FolderOfFiles& a, const FolderOfFiles& b);
 
 /// Whether a pair is in this part of a list. It depends on the id alone: its hash modulo the count.

@@ -31,7 +31,7 @@ std::string lowered(std::string text) {
   return text;
 }
 
-// Keeps letters, and puts one _ for characters that may be no part of a name, however many.
+// Keeps letters, and replaces each run of characters that are not allowed in a name by one _.
 std::string cleaned(const std::string& id) {
   std::string name;
   for (const char c : id) {

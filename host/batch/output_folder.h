@@ -1,5 +1,5 @@
 // A folder with files about pairs, named by the pairs' ids. Each file names its inputs and options,
-// so that none passes for one of others.
+// so that it cannot be taken for a file of other ones.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace vkh {
 /// The name of an id's files without an ending, a function of the id alone. An id of up to 64 small
 /// letters, digits, - and _ is its own name. Any other id has its cleaned name and its hash: so
 /// names of two ids differ, also if a file system makes no difference between letters. No name is
-/// "index", one that Windows keeps for devices, or another one's with "-b".
+/// "index", a device's name on Windows, or another id's name with "-b".
 std::string file_stem(const std::string& id);
 
 class PairFolder {
@@ -29,7 +29,7 @@ class PairFolder {
   void open(const std::vector<std::string>& ids, const std::vector<std::string>& taken) const;
 
   const std::string& option() const { return option_; }
-  /// The name in the folder; `back`: that of the reverse direction.
+  /// The name in the folder; `back`: of the reverse direction.
   std::string name_of(const std::string& id, bool back) const;
   std::string path_in(const std::string& name) const;
 

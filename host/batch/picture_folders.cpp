@@ -15,7 +15,7 @@
 namespace vkh {
 namespace {
 
-// Lists all that a picture depends on besides its answer.
+// Lists everything that a picture depends on, except its answer.
 std::string text_of(const PictureStyle& look) {
   const PictureOptions& o = look.options;
   const glm::dvec3& from = o.view.direction;
@@ -98,7 +98,7 @@ void BatchFolders::ask(Question& question) const {
   check_question(question);
 }
 
-// Writes no picture of a survey that was cut short: it would later be taken for a whole one.
+// Writes no picture of a survey that was cut short: later it would be taken for a complete one.
 void BatchFolders::write(const EndedPair& ended) const {
   const AskedPair& pair = ended.pair;
   Answer answer = pair.answer();

@@ -25,19 +25,19 @@ struct EndedPair {
 /// Threads may share it.
 class BatchFolders {
  public:
-  /// Makes the folders. Throws UsageError if one cannot be written, or a file in it would replace
-  /// one that is `taken`.
+  /// Makes the folders. Throws UsageError if one cannot be written, or if a file in it would
+  /// replace one that is `taken`.
   BatchFolders(const Request& asked, const std::vector<Entry>& entries,
                const std::vector<std::string>& taken);
 
   /// Whether files of this answer, drawn as requested, exist from before.
   bool has(const ResultName& name, bool symmetric) const;
 
-  /// Asks for what the files show of a pair.
+  /// Adds to the question what the files show of a pair.
   void ask(Question& question) const;
 
-  /// Surveys the pair, unless its answer has a survey, which has what ask() asked for. Writes its
-  /// files, one pair at a time on a thread. Never throws: an answer is not lost over its picture.
+  /// Surveys the pair, unless its answer has a survey with what ask() asked for. Writes its files,
+  /// one pair at a time on a thread. Never throws, so that a picture cannot cost an answer.
   void draw(const EndedPair& ended) noexcept;
 
   /// Writes an index per folder, one for both if they are one, of all pairs in the results `file`.

@@ -37,7 +37,7 @@ std::string key_of(Request asked, const Answer& known, bool shares_b) {
   return sha256_of_text(text + key_text(std::move(asked)));
 }
 
-/// Puts what a row asks for itself in place of the batch's.
+/// Replaces the batch's options by the ones that a row gives.
 void put_row(const Entry& entry, Request& asked) {
   for (const auto& [option, text] : entry.options)
     put(*option, {column_name(*option), std::span(&text, 1)}, asked);
@@ -94,7 +94,7 @@ std::shared_ptr<ReadMesh> EntryReader::mesh_of(const std::string& file,
   return std::make_shared<ReadMesh>(read_one_of_many(file, of_this));
 }
 
-// Keeps those used last, so that a list that goes back and forth between two B's reads each once.
+// Keeps the meshes used last, so that a list that alternates between two B's reads each once.
 void EntryReader::note_use(const std::string& key, const std::string& file) {
   constexpr size_t kMost = 256;  // as many as are kept prepared
   constexpr uint64_t kMostBytes = uint64_t{1} << 29;

@@ -16,7 +16,7 @@
 
 namespace vkh {
 
-/// An entry with the facts known before its meshes are read.
+/// An entry, with what is known before its meshes are read.
 struct NamedEntry {
   ResultName name;
   std::unique_ptr<AskedPair> pair;  ///< without its meshes; its answer has the inputs' hashes
@@ -24,14 +24,13 @@ struct NamedEntry {
   uint64_t file_bytes = 0;  ///< the size of all files that are read for it alone
 };
 
-/// The files that lists name as B more than once: their meshes are kept for each other, and
-/// prepared.
+/// The files that are B in more than one entry: their meshes are kept and prepared.
 std::set<std::string> shared_files(const std::vector<Entry>& entries);
 
 /// Threads may share it.
 class EntryReader {
  public:
-  /// `base`: what is asked of every pair. `shared`: the files of the whole list, whatever the
+  /// `base`: the request for every pair. `shared`: shared_files() of the whole list, even for a
   /// shard, since answers depend on it. `keep_going`: false ends reading with Interrupted.
   EntryReader(Request base, std::set<std::string> shared, std::function<bool()> keep_going)
       : base_(std::move(base)), shared_(std::move(shared)), keep_going_(std::move(keep_going)) {}

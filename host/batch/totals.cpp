@@ -21,7 +21,8 @@ std::string number(const char* format, double value) {
 
 std::string count_of(size_t count, const char* what) { return std::to_string(count) + " " + what; }
 
-/// "FAIL  at least 0.347 mm, 3.47 times its limit  id". The upper end of a FAIL means nothing.
+/// "FAIL at least 0.347 mm, 3.47 times its limit id". Leaves out the upper end, which means nothing
+/// for a FAIL.
 std::string in_a_row(const Counted& one) {
   const std::string lower = decimal(one.lower, 7, Rounding::kDown);
   const bool has_upper = one.rank.outcome != Outcome::kBeyond;

@@ -15,7 +15,7 @@ namespace vkh {
 /// Writes a percentage such as "2.64 %", rounded up.
 std::string percent_up(double ratio);
 
-/// The values that totals take of a result.
+/// The values of a result that totals use.
 struct Counted {
   Rank rank;
   ExitCode code = kExitClosed;

@@ -15,7 +15,7 @@
 namespace vkh {
 namespace {
 
-// The version of our instances: 1.3 alone may give a device synchronization2.
+// The version of our instances: below 1.3 a device may lack synchronization2.
 constexpr uint32_t kApiVersion = VK_API_VERSION_1_3;
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
@@ -386,7 +386,7 @@ VkhDeviceInfo Device::engine_info() const {
 
 std::vector<DeviceDescription> list_devices() {
   const FloatEnvironment ours;
-  Device none{Device::Empty{}};  // destroys its instance, whatever happens
+  Device none{Device::Empty{}};  // destroys its instance, also after an exception
   none.create_instance(false);
   std::vector<DeviceDescription> descriptions;
   for (const Choice& c : enumerate(*none.vk_, none.instance_))

@@ -188,9 +188,9 @@ Submitter::~Submitter() {
   vk.DestroyCommandPool(device_.handle(), pool_, nullptr);
 }
 
-// Waits in a loop: a wait may fail for want of memory while the device works on, and nothing that
-// it uses may go before it has ended. vkDeviceWaitIdle will not do: the device may be another
-// owner's, with queues in use on other threads.
+// Waits in a loop: a wait may fail for lack of memory while the device goes on, and nothing that it
+// uses may be freed before it has ended. vkDeviceWaitIdle is no alternative: the device may be
+// another owner's, with queues in use on other threads.
 void Submitter::finish() {
   constexpr int kMostTries = 100;
   constexpr std::chrono::milliseconds kPause(10);
@@ -216,8 +216,8 @@ VkCommandBuffer Submitter::begin() {
 void Submitter::submit_and_wait(const std::function<void()>& waiting) {
   const VulkanApi& vk = device_.vk();
   check(vk.EndCommandBuffer(commands_), "recording");
-  // The reset is here and not behind the wait: one that fails leaves nothing that the next wait
-  // believes.
+  // Resets the fence here and not after the wait: after a failed wait the next one must not see an
+  // old signal.
   check(vk.ResetFences(device_.handle(), 1, &fence_), "resetting a fence");
   VkSubmitInfo submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;

@@ -1,4 +1,4 @@
-// Buffers with memory of their own, and one command buffer that is submitted and waited for.
+// Buffers with their memory, and one command buffer that is submitted and waited for.
 #pragma once
 
 #include <cstdint>
@@ -51,8 +51,8 @@ class Buffer {
   void* mapped_ = nullptr;
 };
 
-/// Whether there is Placement::kMapped for so many bytes: if the host sees all of the device's
-/// memory, or if the size is small beside the part that it sees.
+/// Whether Placement::kMapped is possible for this many bytes: the host sees all of the device's
+/// memory, or the size is small beside the part that it sees.
 bool is_mappable(const Device& device, VkDeviceSize size);
 
 /// The use of a buffer, and the pool that it takes memory from, if any.

@@ -12,8 +12,8 @@ namespace {
 constexpr VkDeviceSize kAlignment = VkDeviceSize{1} << 16;
 
 // The device's own memory comes in blocks of 256 MiB, a few workspaces each, and the host's, which
-// an H200 takes 0.3 ms a MiB to give out, in blocks of 4. A small heap keeps most of itself for
-// buffers of their own.
+// an H200 takes 0.3 ms a MiB to give out, in blocks of 4. In a small heap most memory stays free
+// for buffers outside of the pool.
 VkDeviceSize block_bytes(const Device& device, uint32_t type) {
   VkPhysicalDeviceMemoryProperties memory;
   device.vk().GetPhysicalDeviceMemoryProperties(device.physical(), &memory);

@@ -32,8 +32,8 @@ class MemoryPool {
     VkDeviceSize offset = 0;  ///< bytes
   };
 
-  /// Returns nothing if so much is better allocated by itself, or if there is no memory for a whole
-  /// block. `type`: the index of the memory's type.
+  /// Returns nothing if a buffer of this size should have its own allocation, or if there is no
+  /// memory for a whole block. `type`: the index of the memory's type.
   std::optional<Range> take(const VkMemoryRequirements& needs, uint32_t type);
   /// Frees the block if no other range of it is in use.
   void give_back(const Range& range) noexcept;

@@ -8,8 +8,8 @@
 
 namespace vkh {
 
-/// The content of the file of this device, driver and build, if it is whole. Nothing about it ever
-/// fails a run: a file that cannot be read or written is as good as none.
+/// The content of the file of this device, driver and build, if it is whole. It never makes a run
+/// fail: a file that cannot be read or written counts as missing.
 class PipelineCache {
  public:
   /// No folder: nothing is kept, and the handle is null.
@@ -29,8 +29,8 @@ class PipelineCache {
   size_t saved_bytes_ = 0;
 };
 
-/// Returns the file as write_checked() left it: nothing of one that is cut short, changed or not
-/// ours.
+/// Returns the file's data as write_checked() left them; nothing if the file is cut short, changed
+/// or not ours.
 std::vector<char> read_checked(const std::filesystem::path& file);
 /// Makes the folder too. A concurrent reader finds the old file or the new one.
 void write_checked(const std::filesystem::path& file, const std::vector<char>& data);

@@ -16,7 +16,7 @@ inline std::vector<VkQueueFamilyProperties> queue_families(const VulkanApi& vk,
   });
 }
 
-/// The first of the best: with timestamps, since stages are timed then.
+/// The first of the best families: ones with timestamps, since then stages can be timed.
 inline uint32_t compute_family(const std::vector<VkQueueFamilyProperties>& families) {
   const auto worth = [](const VkQueueFamilyProperties& f) {
     if ((f.queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) return 0;

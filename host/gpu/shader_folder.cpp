@@ -38,7 +38,7 @@ const char* kernel_of(const uint32_t* words) {
   return nullptr;
 }
 
-// Nothing where the file is not there; no words where it is no SPIR-V.
+// Returns nothing if there is no file, and no words if it is no SPIR-V.
 std::optional<std::vector<uint32_t>> words_in(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;

@@ -19,7 +19,7 @@ VulkanApi load_vulkan() {
       reinterpret_cast<PFN_vkGetInstanceProcAddr>(vulkan_loader_function("vkGetInstanceProcAddr"));
   if (vk.GetInstanceProcAddr == nullptr)
     throw DeviceError(std::string("no Vulkan loader (") + kVulkanLoader +
-                      "); distances, limits and figures are to be had without, by device native");
+                      "); device native gives distances, limits and figures without Vulkan");
 #ifdef VKH_DEBUGGING
   vk.GetInstanceProcAddr = with_shader_folder(vk.GetInstanceProcAddr);
 #endif

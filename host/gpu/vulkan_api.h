@@ -101,8 +101,8 @@ struct VulkanApi {
 #undef VKH_MEMBER
 };
 
-/// Lists what Vulkan reports in two calls: how many, then which. `call` takes the count and the
-/// array.
+/// Lists what Vulkan reports in two calls: first the number, then the items. `call` takes the count
+/// and the array.
 template <class T, class Call>
 std::vector<T> list_of(const Call& call) {
   uint32_t count = 0;
@@ -122,8 +122,8 @@ void load_device(VulkanApi& vk, VkDevice device);
 
 /// Throws DeviceError: "`what` failed: out of host memory", or another reason.
 void check(VkResult result, const char* what);
-/// Throws the same way; a handle that could not be made is null afterwards, which Vulkan leaves
-/// open.
+/// Throws the same way, and sets a handle that could not be made to null, which Vulkan does not
+/// promise.
 template <class Handle>
 void check_made(VkResult result, Handle& handle, const char* what) {
   if (result != VK_SUCCESS) handle = VK_NULL_HANDLE;

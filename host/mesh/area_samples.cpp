@@ -28,7 +28,7 @@ double sum_of_areas(const Mesh& mesh) {
   return sum;
 }
 
-/// A point of the face, from two numbers in [0, 1): each stretch of its area is as likely.
+/// A point of the face, from two numbers in [0, 1), uniform over its area.
 DVec3 point_on(const Mesh& mesh, const UVec3& face, double u, double v) {
   const double root = std::sqrt(u);
   const glm::dvec3 a = mesh.vertices[face.x], b = mesh.vertices[face.y], c = mesh.vertices[face.z];
@@ -56,7 +56,7 @@ std::vector<DVec3> area_samples(const Mesh& mesh, size_t count) {
       at = next_at();
     }
   }
-  // The last stretch may be a rounding beyond the sum.
+  // By rounding, the last stretch may be beyond the sum.
   while (points.size() < count) points.push_back(point_on(mesh, mesh.faces.back(), 0.5, 0.5));
   return points;
 }

@@ -50,7 +50,8 @@ ClosestPoint closest_point(const glm::dvec3& p, const glm::dvec3& a, const glm::
   return best.at;
 }
 
-// Scales by a power of two, which is exact but for what is subnormal beside the largest coordinate.
+// Scales by a power of two, which is exact except for numbers that become subnormal beside the
+// largest coordinate.
 ClosestPoint closest_point_of_any_size(const glm::dvec3& p, const glm::dvec3& a,
                                        const glm::dvec3& b, const glm::dvec3& c) {
   constexpr int kUsual = 200;

@@ -92,8 +92,8 @@ class PartBuilder {
   std::vector<glm::uvec3> faces_;
 };
 
-// Rounds to float32 as an STL file would: the last bit of a cosine, which differs between
-// machines, is lost, but for one coordinate in 10^8.
+// Rounds to float32 as an STL file would: this drops the last bit of a cosine, which differs
+// between machines, for all but one coordinate in 10^8.
 uint32_t PartBuilder::add(const dvec2& p, double z) {
   vertices_.push_back(round_to_float({p.x, p.y, z}));
   return static_cast<uint32_t>(vertices_.size() - 1);

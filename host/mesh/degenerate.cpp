@@ -5,8 +5,8 @@ namespace vkh {
 
 // The cross product of two edges is zero if and only if the triangle's three projections along the
 // axes are collinear. One projection that is surely not collinear decides: a face in a plane of the
-// axes has two collinear ones, which would cost exact sums. Corners that are equal come last, since
-// few faces have them: no projection of theirs turns surely.
+// axes has two collinear ones, which would cost exact sums. Equal corners come last, since few
+// faces have them: their projections never surely turn.
 bool is_degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const auto along = [&](int i, int j, const auto& turn) {
     return turn(Point2{a[i], a[j]}, Point2{b[i], b[j]}, Point2{c[i], c[j]});

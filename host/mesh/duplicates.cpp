@@ -10,7 +10,7 @@
 namespace vkh {
 namespace {
 
-// Not keyed: of a file that was made so that its hashes agree, everything is compared.
+// The hash has no key: for a file that was made to collide, all faces are compared.
 constexpr uint64_t kMix = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
 uint64_t plain_hash(const std::array<uint64_t, 3>& words) {
   uint64_t hash = 0;
@@ -92,8 +92,8 @@ CornerNumbers in_order(CornerNumbers c) {
   return c;
 }
 
-/// The places of faces in a filter, whatever the order of their corners. Those of corners near each
-/// other, by number, lie in one line of memory: faces that are neighbours in a file mostly are.
+/// The places of faces in a filter, which do not depend on the order of corners. Faces with close
+/// corner numbers are in one line of memory, and neighbours in a file mostly have these.
 class FacePlaces {
  public:
   FacePlaces(const RepeatFilter& filter, size_t vertex_count)
@@ -152,8 +152,8 @@ class FaceGroups {
     return std::atomic_ref<uint32_t>(end_[vertex]).fetch_add(count, std::memory_order_relaxed);
   }
 
-  // Counts in runs: faces that follow each other often share their least corner; a fan's all do,
-  // and threads would wait for each other.
+  // Counts in runs: consecutive faces often share their least corner. All faces of a fan do, and
+  // threads would wait for each other.
   void count() {
     pool_.for_parts(faces_.size(), [&](size_t, size_t begin, size_t end) {
       uint32_t vertex = 0, run = 0;

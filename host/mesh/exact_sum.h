@@ -55,7 +55,7 @@ class WideInteger {
   std::array<uint64_t, kLimbs> limbs_{};
 };
 
-/// Sums products of doubles without rounding, whatever their exponents. Every finite double is an
+/// Sums products of doubles of any exponents without rounding. Every finite double is an
 /// integer times 2^-1074, so a product is one times 2^-2148, less than 2^2048 in size; bit 0 is
 /// worth 2^-2148, and at least 60 bits are left at the top.
 class ExactSum : public WideInteger<67> {

@@ -28,7 +28,7 @@ constexpr double kLeastSquare = 1e-290;
 
 double ratio(double a, double b) { return b > kLeastSquare ? a / b : 0; }
 
-// The origin is the point asked.
+// The query point is the origin.
 FaceWeights on_edge(const FaceCorners& t, size_t base, size_t end) {
   const glm::dvec3 edge = t[end] - t[base];
   const double v = std::clamp(ratio(-glm::dot(t[base], edge), glm::dot(edge, edge)), 0.0, 1.0);

@@ -9,14 +9,14 @@
 namespace vkh {
 
 /// A point of a triangle: base + v (end - base) + w (third - base), by corners' numbers. 0 <= v, w
-/// and v + w <= 1 hold exactly, so that the exact point lies in the triangle whatever rounding did
-/// to v and w.
+/// and v + w <= 1 hold exactly, so that the exact point lies in the triangle, however v and w were
+/// rounded.
 struct FaceWeights {
   size_t base = 0, end = 1, third = 2;
   double v = 0, w = 0;
   double distance2 = std::numeric_limits<double>::infinity();  ///< steers
 };
-/// Finds those of a point near the closest one.
+/// Finds the weights of a point next to the closest one.
 FaceWeights closest_weights(const glm::dvec3& p, const std::array<glm::dvec3, 3>& corners);
 
 /// A point next to a triangle, at distance e from p.

@@ -49,8 +49,8 @@ struct Scale {
 
 double scaled(double x, int exponent) { return Scale(exponent)(x); }
 
-// 0 for a float under 2^-126: a device may flush those as it reads them, and two that differ would
-// become one.
+// 0 for a float under 2^-126: a device may flush such floats as it reads them, and different ones
+// would become equal.
 float without_subnormals(float x) {
   return std::abs(x) >= std::numeric_limits<float>::min() ? x : 0.0f;
 }
@@ -67,8 +67,8 @@ Halves halves_of(double exact) {
 
 // Computes how far storing a coordinate displaces it, rounded up, and whether it needs a low part.
 // The sum has what two floats leave, exactly, and the rounding of the subtraction by its bound
-// (2^-53 relative, taken twice over), unless it was exact. Scaling is exact but for underflow,
-// which the last term takes: a normal result has not been through one.
+// (2^-53 relative, taken twice over), unless it was exact. Scaling is exact except for underflow,
+// which the last term covers: a normal result has not underflowed.
 double displaced(double given, double centre, const Scale& scale, bool& has_low) {
   const double offset = given - centre;
   const double exact = scale(offset);
@@ -91,8 +91,8 @@ Frame frame_around(const Box& box, const glm::dvec3& centre) {
   return {centre, exponent_for(extent_of(box, centre))};
 }
 
-// Around the origin the meshes may use only part of [-1, 1]; a quarter of it costs two bits and is
-// worth being exact.
+// Around the origin the meshes may use only part of [-1, 1]. Using a quarter of it costs two bits,
+// which exact coordinates are worth.
 bool may_keep_origin(const Box& box) {
   return extent_of(box, glm::dvec3(0)) <= 4 * extent_of(box, middle_of(box));
 }
@@ -169,7 +169,7 @@ StoragePlan store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
   return out;
 }
 
-// Scaling is exact but for underflow, which leaves less than 2^-1000. Delta is not part of the
+// Scaling is exact except for underflow, which leaves less than 2^-1000. Delta is not part of the
 // check below: a mesh that is off its place is stored as well as any other.
 StoragePlan with_delta(StoragePlan stored, const Frame& frame, const Mesh& mesh) {
   if (mesh.delta == 0) return stored;
@@ -191,7 +191,7 @@ std::optional<StoragePlan> store_exactly(const Frame& frame, const Mesh& mesh) {
 Box bounding_box(const Mesh& mesh) {
   std::vector<Box> boxes(parts_of(mesh));
   for_each_range(mesh, [&](size_t part, VertexRange range) {
-    glm::dvec3 lo = mesh.vertices[range.begin], hi = lo;  // in registers, as no Box would be
+    glm::dvec3 lo = mesh.vertices[range.begin], hi = lo;  // in registers, which a Box would not be
     for (size_t v = range.begin; v < range.end; ++v) {
       const DVec3& p = mesh.vertices[v];
       lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};

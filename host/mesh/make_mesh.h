@@ -1,5 +1,5 @@
-// Makes meshes for readers of large files: on several threads, and called off in time. It also
-// counts faces that are wrong without being an error.
+// Makes meshes for readers of large files, on several threads; the caller may cancel. Also counts
+// degenerate and duplicate faces, which are no errors.
 #pragma once
 
 #include "host/base/thread_pool.h"
@@ -9,12 +9,12 @@ namespace vkh {
 
 enum class Positions { kAny, kDiffer };  ///< whether two vertices may be at one position
 
-/// Does the same as make_mesh of mesh.h, whatever the pool: it returns the same mesh, and throws
-/// the same one of several errors.
+/// Does the same as make_mesh of mesh.h, with any pool: it returns the same mesh, and throws the
+/// same one of several errors.
 Mesh make_mesh(std::string name, std::vector<glm::dvec3> vertices, std::vector<glm::uvec3> faces,
                const ThreadPool& pool, Positions positions = Positions::kAny);
 
-/// Does the same as make_points of mesh.h, whatever the pool.
+/// Does the same as make_points of mesh.h, with any pool.
 Mesh make_points(std::string name, std::vector<glm::dvec3> points, const ThreadPool& pool);
 
 /// Whether a triangle is a segment or a point: exact for all finite coordinates.

@@ -4,7 +4,7 @@
 // Triangles that turn to the left, or not at all, and whose directed edges add up to the outline,
 // cover each point of the projection as often as the outline winds round it. So ears that are
 // clipped tile the polygon if and only if no two of them overlap, which is tested: that finds every
-// outline that crosses itself, whatever the clipping did.
+// outline that crosses itself, no matter how ears were clipped.
 #include "vkhausdorff/polygon.h"
 
 #include <algorithm>
@@ -42,8 +42,8 @@ class Corners {
 using Ring = std::vector<Point2>;
 
 // The number of tests of a corner against an ear, or of two triangles, for each corner of a
-// polygon: so many that 4,096 corners are always decided, and a file's cost stays proportional to
-// its size.
+// polygon: enough to always decide 4,096 corners, and few enough to keep a file's cost proportional
+// to its size.
 constexpr uint64_t kTestsPerCorner = 4096;
 
 // Scales the largest coordinate to about 1, so that products neither overflow nor vanish.
@@ -180,9 +180,9 @@ class Clipper {
     is_gone_[corner] = true;
   }
 
-  // Takes the corners at which the outline turns back, or stays where it is: the triangle of each
-  // is a segment, and the outline winds round no point more or less often without it. An ear beside
-  // a spike may lie outside. `left` counts the others; returns one of them.
+  // Removes the corners at which the outline turns back, or stays where it is: the triangle of each
+  // is a segment, and the outline winds round every point as often without it. An ear beside a
+  // spike may lie outside. `left` counts the others; returns one of them.
   uint32_t without_spikes(uint32_t& left) {
     uint32_t at = 0;
     for (uint32_t passed = 0; left > 3 && passed < left;) {
@@ -388,8 +388,8 @@ double plane_ambiguity(const Corners& corners, const glm::dvec3& normal, int axi
 // Let x be a point of one triangulation, at s along the line. Another triangulation is connected
 // and has all corners, so it has a point y at s, too. Both lie in the corners' hull, so x - y is at
 // most the greatest distance between the corners' feet r on a plane across the line. The same holds
-// for whatever else is connected, has all corners, and lies in their hull: of an outline that
-// crosses itself, its fan, and each way to fill it.
+// for everything else that is connected, has all corners, and lies in their hull: for an outline
+// that crosses itself, its fan, and each way to fill it.
 //
 // The axes' widths of r bound that distance. r = d - s t, of differences d and t = the longest of
 // them, whose sum of sizes is L at most: with u = 2^-53, s is off by 10 u |d| / |t|, and a
@@ -474,9 +474,9 @@ std::optional<Outline> outline_along(const Corners& corners, int axis) {
   return clipped(std::move(ring), axis, sign);
 }
 
-// Corners off a plane may cross along the axis that the polygon faces most, and not along another
-// that it nearly faces as much: that one then says the surface and its ambiguity. Along an axis
-// that it hardly faces, a bow tie may look like a simple sliver.
+// Corners off a plane may cross as seen along the axis that the polygon faces most, and not along
+// another that it faces nearly as much: then that axis decides the surface and its ambiguity. Along
+// an axis that it hardly faces, a bow tie may look like a simple sliver.
 Outline outline_of(const Corners& corners, const glm::dvec3& normal) {
   constexpr double kFaces = 0.5;  // of the largest component
   const std::array<int, 3> axes = axes_by_size(normal);

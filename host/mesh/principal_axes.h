@@ -9,8 +9,8 @@
 
 namespace vkh {
 
-/// The principal axes of a surface, each point of it weighing alike. They go by the surface and not
-/// by its triangles, so that a scan of a part has those of its CAD.
+/// The principal axes of a surface, all of whose points weigh the same. They depend on the surface
+/// and not on its triangles, so that a scan of a part has the same axes as its CAD.
 struct PrincipalAxes {
   double area = 0;
   DVec3 centroid{};  ///< of the surface
@@ -20,9 +20,9 @@ struct PrincipalAxes {
   glm::mat<3, 3, double, glm::packed_highp> axes{
       0};  ///< [i]: an axis, of length 1 and of either sign
 };
-/// The same figures to the bit whatever the number of threads is.
+/// The figures have the same bits for any number of threads.
 PrincipalAxes principal_axes_of(const Mesh& mesh);
-/// The axes of points that weigh alike; their area is 0. Zeros where there is no point, or a figure
+/// The axes of points of equal weight; their area is 0. Zeros where there is no point, or a figure
 /// is too large for a double.
 PrincipalAxes principal_axes_of(std::span<const DVec3> points);
 
@@ -30,11 +30,10 @@ PrincipalAxes principal_axes_of(std::span<const DVec3> points);
 /// more where one has no axes.
 double difference_in_shape(const PrincipalAxes& a, const PrincipalAxes& b);
 
-/// The angle in degrees by which the principal axes of `a` are turned against those of `b`, where
-/// it tells something: the variances agree so well that the shapes, if they are one, would be off
-/// by at most a third of it, and it is 0.25 degrees or more. An axis counts if its variance is a
-/// twentieth of the largest apart from the others'. Axes have no sign, so that half turns are not
-/// seen.
+/// The angle in degrees by which the principal axes of `a` are turned against those of `b`, if it
+/// means something: the variances agree so well that for equal shapes the angle is off by at most a
+/// third of itself, and it is 0.25 degrees or more. An axis counts if its variance differs from the
+/// others' by a twentieth of the largest. Axes have no sign, so half turns are not seen.
 std::optional<double> turn_between(const PrincipalAxes& a, const PrincipalAxes& b);
 
 }  // namespace vkh

@@ -12,8 +12,8 @@
 namespace vkh {
 
 /// A Bloom filter of one hash. Every element marks the place of its hash, and equal ones mark the
-/// same. Then an element whose place no other one marked is unlike all others. Of elements that all
-/// differ, one in ten or so is taken for a repeat: what repeats has to be compared after all.
+/// same. Then an element whose place no other one marked is unlike all others. Among different
+/// elements one in ten or so is taken for a repeat, so repeats still have to be compared.
 class RepeatFilter {
  public:
   static constexpr size_t kLine = 512;  ///< places in a line of memory

@@ -32,12 +32,12 @@ inline double distance2(const glm::dvec3& p, const TriangleBox& box) {
 
 class TriangleTree {
  public:
-  /// `which` of the triangles are in it.
+  /// `which`: the triangles that are in it.
   TriangleTree(std::span<const Corners3> triangles, std::vector<uint32_t> which);
   explicit TriangleTree(std::span<const Corners3> triangles);  ///< of all of them
 
-  /// Calls see(triangle) for those in boxes that enter(box) says to enter, until one returns false.
-  /// Returns whether none did.
+  /// Calls see(triangle) for the triangles in boxes for which enter(box) is true, until a call
+  /// returns false. Returns whether none did.
   template <class Enter, class See>
   bool walk(const Enter& enter, const See& see) const {
     if (nodes_.empty()) return true;
@@ -60,8 +60,8 @@ class TriangleTree {
     }
   }
 
-  /// Calls see(triangle), which may lower `reach2`, for those in boxes whose squared distance from
-  /// p is at most that; nearer boxes come first.
+  /// Calls see(triangle), which may lower `reach2`, for the triangles in boxes whose squared
+  /// distance from p is at most `reach2`; nearer boxes come first.
   template <class See>
   void nearest_first(const glm::dvec3& p, const double& reach2, const See& see) const {
     if (!nodes_.empty()) nearest_first(p, reach2, see, 0);

@@ -50,7 +50,7 @@ py::object key_of(const Length& length) {
                           : py::object(py::str(length.requested));
 }
 
-/// The bands as they were asked: the limit first (finish.cpp).
+/// The bands in the order of finish.cpp: the limit first.
 py::list bands_of(const Question& question) {
   py::list bands;
   if (question.max) bands.append(key_of(*question.max));
@@ -86,7 +86,7 @@ void add_fields(const SurveyedSide& side, const Answer& answer, py::dict& parts)
   parts["under_field"] = ends_of_faces(found.sides->under_of_faces);
 }
 
-/// The figures of a direction by their keys, but for the distance itself.
+/// The figures of a direction by their keys, except for the distance itself.
 py::dict figures_of(const Answer& answer, bool of_b) {
   py::dict figures;
   for (const AnswerFigure& figure : vkh::figures_of(answer)) {
@@ -152,8 +152,8 @@ py::object certificate_of(const Answer& answer) {
   return certificate;
 }
 
-/// Both directions as one report: their interval, the sums of what they counted and took, and the
-/// most of what they held.
+/// Both directions as one report: their interval, the sums of counts and times, and the larger
+/// amounts of memory.
 Report report_of_both(const Answer& answer, bool is_forward) {
   Report both = answer.a_to_b;
   const Report& back = *answer.b_to_a;
@@ -180,8 +180,8 @@ Report report_of_both(const Answer& answer, bool is_forward) {
   return both;
 }
 
-/// One schema for one direction and for both: what holds for the whole answer, and each direction
-/// by itself.
+/// One schema for one direction and for both: members of the whole answer, and each direction by
+/// itself.
 py::dict stats_of(const Answer& answer, bool is_forward) {
   py::dict stats =
       stats_of(answer, answer.b_to_a ? report_of_both(answer, is_forward) : answer.a_to_b);

@@ -1,4 +1,4 @@
-// An answer on its way to Python: its plain values, of which _result.py makes the result.
+// Converts an answer to plain Python values, of which _result.py makes the result.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,13 +13,13 @@ namespace vkh::python {
 /// All four rows of a matrix, as the keyword transform takes them.
 pybind11::list matrix_rows(const MatrixRows& matrix);
 
-/// The parts of a Result by their names in _result.py, with the GIL: of a directed or a symmetric
-/// distance, whose witness is that of the direction with the larger lower bound, always in terms of
-/// A and B. `a` and `b`: the meshes as they were measured, which fields keep for their files; null
-/// where no field is asked for.
+/// The parts of a Result by their names in _result.py. Needs the GIL. A symmetric distance has the
+/// witness of the direction with the larger lower bound, always in terms of A and B. `a` and `b`:
+/// the meshes as they were measured, which fields keep for their files; null where no field is
+/// asked for.
 pybind11::dict parts_of(const Question& question, const Answer& answer, const MeshPointer& a,
                         const MeshPointer& b);
-/// The Result that is made of them. A pair that failed has an `error` alone.
+/// Makes a Result of them. A pair that failed has only an `error`.
 pybind11::object result_of(const pybind11::dict& parts);
 
 /// Defines what a Result takes from C++.

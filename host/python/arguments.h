@@ -14,8 +14,8 @@ namespace vkh::python {
 struct Signature {
   std::string function;
   std::vector<std::string> names;
-  size_t required;    ///< number of them, from the first, that must be there
-  size_t positional;  ///< number that may be given by position
+  size_t required;    ///< the number of required ones, which come first
+  size_t positional;  ///< the number of ones that may be given by position
 };
 
 class Arguments {

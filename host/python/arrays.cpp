@@ -22,7 +22,7 @@ namespace py = pybind11;
 // Text of a Python object, such as a shape or a dtype.
 std::string in_words(const py::object& object) { return py::cast<std::string>(py::str(object)); }
 
-// Makes an array of all that NumPy takes for one.
+// Makes an array of anything that NumPy accepts as one.
 py::array array_from(const std::string& what, const py::object& object,
                      const std::string& expected) {
   if (object.is_none()) refuse(what, "None", expected);
@@ -39,13 +39,13 @@ bool has_columns(const py::array& array, py::ssize_t count) {
   return array.ndim() == 2 && array.shape(1) == count;
 }
 
-// Refuses all but three columns. Rows of none are left to make_mesh.
+// Refuses anything but three columns. make_mesh refuses arrays without rows.
 void check_columns(const std::string& what, const py::array& array, const std::string& expected) {
   if (!has_columns(array, 3))
     refuse(what, "an array of shape " + in_words(array.attr("shape")), expected);
 }
 
-// Makes a row-major copy in native byte order, unless it is that already.
+// Makes a row-major copy in native byte order, unless the array is that already.
 template <class T>
 py::array_t<T, py::array::c_style | py::array::forcecast> as(const py::array& array) {
   return py::array_t<T, py::array::c_style | py::array::forcecast>(array);
@@ -75,8 +75,8 @@ struct PointsName {
   std::string what, row;
 };
 
-// Takes integers that float64 has exactly: others would be rounded, and the certified points would
-// not be the given ones.
+// Accepts only integers that float64 holds exactly: others would be rounded, and the certified
+// points would not be the given ones.
 template <class Integer>
 std::vector<glm::dvec3> integers_from(const PointsName& name, const py::array& given) {
   constexpr Integer kMost = Integer{1} << 53;

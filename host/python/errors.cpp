@@ -34,7 +34,7 @@ py::object decoded(const std::string& text) {
       PyUnicode_DecodeFSDefaultAndSize(text.data(), static_cast<py::ssize_t>(text.size())));
 }
 
-/// Adds what is known to the exception that is set. One attribute less costs no error.
+/// Adds what is known to the current exception. Failing to add an attribute is no error.
 void add_place(const std::string& file, const std::string& place) {
   PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
   PyErr_Fetch(&type, &value, &trace);

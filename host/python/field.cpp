@@ -31,7 +31,7 @@ std::string file_name(const py::object& path) {
   return std::move(*file);
 }
 
-/// The contents of a file besides the bounds: (mesh, lower, upper, unit, against).
+/// The contents of a file, except the bounds: (mesh, lower, upper, unit, against).
 struct Source {
   MeshPointer mesh;
   Enclosure interval;

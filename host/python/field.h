@@ -5,7 +5,7 @@
 
 namespace vkh::python {
 
-/// Defines _save_field(), which stands behind Field.save().
+/// Defines _save_field(), which Field.save() calls.
 void define_field(pybind11::module_& m);
 
 }  // namespace vkh::python

@@ -23,14 +23,14 @@ struct State {
   std::mutex mutex;  // never held by one that waits for the GIL
   std::condition_variable changed;
   int outside = 0;       // without the GIL
-  int inside = 0;        // with it, or in Python and on the way to it
+  int inside = 0;        // with the GIL, or waiting for it
   bool ending = false;   // nothing starts, what runs is cancelled
   bool is_over = false;  // no thread comes back
   std::thread::id ender;
 };
 
-// This is never destroyed: threads may wait in it when the process exits. A forked process gets one
-// anew.
+// This is never destroyed: threads may wait in it when the process exits. A forked process gets a
+// new one.
 std::atomic<State*> g_state = nullptr;
 std::atomic<bool> g_used = false, g_forked = false;
 

@@ -8,7 +8,7 @@
 namespace vkh::python {
 
 /// The interpreter ends, and nothing may run any more. Python sees SystemExit, which ends a thread
-/// without a word, as the interpreter would; on the thread that ends it, RuntimeError.
+/// silently, as the interpreter would; on the thread that ends it, RuntimeError.
 struct Ended {};
 /// A Python exception is set, and is on its way through code that does not have the GIL.
 struct Raised {};
@@ -22,7 +22,7 @@ void watch_interpreter();
 void end_interpreter(const std::function<void()>& end, const std::function<void()>& free);
 bool is_ending();
 
-/// A device does not survive a fork: from `mark_used` on, forked processes are told apart.
+/// A device does not survive a fork: after `mark_used`, a forked process is recognised.
 void mark_used();
 bool is_forked();
 

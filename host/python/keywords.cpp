@@ -38,7 +38,7 @@ struct Value {
   std::string text() const { return text_from(name, expected, given); }
 };
 
-/// Whether None is as good as nothing.
+/// Whether None means that the keyword was not given.
 bool takes_none(const Option& option, Functions function) {
   switch (option.kind) {
     case Kind::kFlag:
@@ -108,7 +108,7 @@ struct Typed {
   Outlet outlet;
 };
 
-/// A number is a share, or per cent; a text of one says so itself: "99.5%".
+/// A number is a share, or a percentage; a text says itself which it is: "99.5%".
 void check_part(const Option& option, const Value& value, const std::string& text) {
   const bool is_part = option.kind == Kind::kShare || option.kind == Kind::kPercentile;
   if (!is_part || text.ends_with('%')) return;
@@ -186,8 +186,8 @@ bool is_as_typed(const Option& option, const Value& value) {
   }
 }
 
-/// Whether the table's own words say more: a percentile may tell 0.95 from 95, and limits of two
-/// sides which of them is missing.
+/// Whether the table's own message says more: about a percentile, 0.95 or 95; about limits of two
+/// sides, which one is missing.
 bool says_more(const Option& option, const Typed& one) {
   const bool is_sided = one.text.starts_with('+') || one.text.starts_with('-');
   return option.kind == Kind::kPercentile ||
@@ -207,9 +207,9 @@ void read_as_typed(const Option& option, const Value& value, Request& asked) {
   }
 }
 
-// Rows that Python reads by a rule of its own.
+// Options that Python reads by special rules.
 
-/// Reads the limits of A's faces. Of the whole, the largest is its limit.
+/// Reads the limits of A's faces. The limit of the whole is the largest of them.
 void read_face_limits(const Value& max, Question& question) {
   refuse_masked("max", max.given);
   const auto numbers =

@@ -14,20 +14,20 @@ namespace vkh::python {
 Signature signature_of(Functions function, const char* name, const std::vector<std::string>& own,
                        size_t required, size_t positional);
 
-/// The keywords with their defaults, but for `own`, as a signature has them: "tol=1e-6, ...".
+/// The keywords with their defaults, except `own`, as a signature has them: "tol=1e-6, ...".
 std::string keywords_text(Functions function, const std::vector<std::string>& own);
 
 /// Returns paragraphs for the keywords that the text of a function does not name, with the help of
 /// their rows.
 std::string more_text(Functions function, const std::string& text);
 
-/// Reads what was given of these keywords, but for the device. Numbers are those of the arrays: a
-/// tolerance is a fraction of A's diagonal, and other lengths are in the coordinates' unit. Strings
-/// are as on the command line, without units, which arrays do not have. `command`: the name of the
-/// function in an answer.
+/// Reads these keywords, except the device. Numbers are in terms of the arrays: a tolerance is a
+/// fraction of A's diagonal, and other lengths are in the coordinates' unit. Strings are as on the
+/// command line, without units, which arrays do not have. `command`: the name of the function in an
+/// answer.
 Request request_of(Functions function, const char* command, const Arguments& given);
 
-/// key_text() of these keywords, for tests: it is that of a command line that says the same.
+/// key_text() of these keywords, for tests: the same as of an equivalent command line.
 std::string key_of_keywords(Functions function, const pybind11::kwargs& given);
 
 }  // namespace vkh::python

@@ -3,8 +3,8 @@
 
 usage: make_stub.py TEMPLATE PACKAGE KEYWORDS OUT; PACKAGE has the modules. A line "# class NAME of MODULE" of the template
 stands for that class: its bases, the first line of its text, its annotated members, and the signatures of its methods.
-A line "# keywords of FUNCTION" stands for those that KEYWORDS, made by tools/options/make_pages.py, has for it and that
-the function does not name before.
+A line "# keywords of FUNCTION" stands for the keywords that KEYWORDS, made by tools/options/make_pages.py, has for it
+and that the function does not name before.
 """
 
 import ast

@@ -68,8 +68,7 @@ AskedOfAll asked_from(const Arguments& given) {
 
 }  // namespace
 
-/// All that runs on threads of ours. Nothing of it touches Python, but for wait(), which asks it
-/// about signals.
+/// Everything that runs on our threads. Only wait() touches Python, to check for signals.
 class Pulled {
  public:
   explicit Pulled(AskedOfAll asked);
@@ -80,7 +79,7 @@ class Pulled {
   /// Returns a pair that has ended; null when none is left, or end() came. Called within a
   /// WithoutGil. Throws DeviceError if no device is left, and what ask() throws.
   std::unique_ptr<StreamedPair> wait();
-  /// Drops what waits, cancels what runs, and returns when no thread is left.
+  /// Drops waiting pairs, cancels running ones, and returns when no thread is left.
   void end();
 
   const AskedOfAll asked;
@@ -163,7 +162,7 @@ void Pulled::end() {
   stream.cancel();
   try {
     stream.finish();
-  } catch (...) {  // no caller asks for it any more
+  } catch (...) {  // no caller wants the error any more
   }
 }
 
@@ -240,7 +239,7 @@ py::object PythonStream::take(bool waits) {
   return result_of(parts);
 }
 
-// After a fork the parent's threads and devices are not there, and nothing of them may be touched.
+// After a fork the parent's threads and devices do not exist, and must not be touched.
 void PythonStream::close() {
   std::shared_ptr<Pulled> pulled = std::move(pulled_);
   pulled_ = nullptr;

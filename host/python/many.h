@@ -12,7 +12,7 @@ namespace vkh::python {
 
 class Pulled;
 
-/// Used by one thread of Python at a time; the generator that has it sees to that.
+/// Used by one thread of Python at a time, which the generator ensures.
 class PythonStream {
  public:
   PythonStream(const pybind11::args& positional, const pybind11::kwargs& named);
@@ -20,8 +20,8 @@ class PythonStream {
   PythonStream(const PythonStream&) = delete;
   PythonStream& operator=(const PythonStream&) = delete;
 
-  /// Whether one more may be put: fewer than `ahead` are put and not taken, and the meshes of these
-  /// are within AskingStream::kReadAhead.
+  /// Whether another pair may be put: fewer than `ahead` pairs are put and not taken, and their
+  /// meshes are within AskingStream::kReadAhead.
   bool has_room() const;
   /// Puts a pair without waiting. Throws the error in the arrays; `b`: None with against=.
   void put(size_t index, const pybind11::object& id, const pybind11::object& a,

@@ -364,7 +364,7 @@ void define_mesh(py::module_& m) {
       .def_property_readonly(
           "vertices",
           [](const py::object& self) { return view_of<double>(mesh_in(self).vertices, self); },
-          "(n, 3) float64, those that a face uses; read-only")
+          "(n, 3) float64, the vertices that a face uses; read-only")
       .def_property_readonly(
           "faces",
           [](const py::object& self) { return view_of<uint32_t>(mesh_in(self).faces, self); },
@@ -486,7 +486,7 @@ bool is_list_of_rows(const py::object& object) {
          py::isinstance<py::tuple>(object);
 }
 
-// Refuses, where a mesh stands for two arguments, what is neither a mesh nor one of them.
+// If a mesh stands for two arguments, refuses values that are neither a mesh nor one of these.
 void refuse_strange_meshes(const py::args& positional, const PointSides& points, bool is_b) {
   for (size_t i = 0; i < positional.size(); ++i) {
     const py::object given = positional[i];

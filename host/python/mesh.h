@@ -1,5 +1,5 @@
-// Meshes as Python has them: arrays, objects that have arrays, files, and the class Mesh, which is
-// a file that was read.
+// The meshes that Python may pass: arrays, objects with arrays, files, and the class Mesh, which
+// holds a file that was read.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -40,9 +40,9 @@ struct MeshGiven {
   MeshPointer mesh;  ///< a Mesh; otherwise
   std::string file;  ///< to be read; otherwise
   RawMesh arrays;
-  bool are_points = false;  ///< of arrays: the vertices are all, and no face is there
+  bool are_points = false;  ///< of arrays: there are only vertices, and no faces
 
-  uint64_t bytes() const;  ///< memory that it takes besides, about
+  uint64_t bytes() const;  ///< the approximate memory that making the mesh takes
 };
 /// Which meshes of a call are points alone.
 struct PointSides {
@@ -71,8 +71,9 @@ std::optional<std::string> path_from(const char* argument, const pybind11::objec
 MeshPointer mesh_of(const char* argument, const std::string& name, const pybind11::object& object,
                     ReadLimits limits = {});
 
-/// Returns meshes that were given by position as (vertices, faces), if only so many values were
-/// given so, for signatures that have these apart. `apart`: their names.
+/// Splits meshes that were given by position as (vertices, faces), for signatures that have
+/// vertices and faces as arguments of their own, if the number of values by position fits. `apart`:
+/// the names of these arguments.
 pybind11::args spread(const pybind11::args& positional, const pybind11::kwargs& named,
                       const std::vector<const char*>& apart);
 /// Makes the mesh of arguments that were spread. Points have None as their faces.

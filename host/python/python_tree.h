@@ -13,11 +13,11 @@
 
 namespace vkh::python {
 
-/// A tree of MemberWriter. Bounds are doubles, and no text in hexadecimal is beside them; faces are
-/// rows of the arrays.
+/// A tree of MemberWriter. Bounds are doubles, without texts in hexadecimal; faces are rows of the
+/// arrays.
 class PythonTree {
  public:
-  /// Objects of the names in `flat` are no dicts: their members are those of the dict around them.
+  /// Objects whose names are in `flat` become no dicts: their members go to the dict around them.
   explicit PythonTree(std::initializer_list<std::string_view> flat);
 
   void key(const char* name) { key_ = name; }

@@ -110,7 +110,7 @@ pybind11::value_error Session::closed() const {
   return pybind11::value_error(std::string("this ") + owner_name_ + " is closed");
 }
 
-// Frees meshes that are dropped meanwhile, too. A forked process leaves all to its parent.
+// Also frees meshes that are dropped meanwhile. A forked process frees nothing: it is the parent's.
 void Session::end_turn() {
   for (bool is_over = is_forked(); !is_over;) {
     std::vector<Key> dropped;
@@ -144,8 +144,8 @@ bool Session::has_lost_one() const {
   });
 }
 
-// A lost device may show itself by another error first, so that it is checked after each; or by
-// none, where others did its part.
+// A lost device may first show as another error, so it is checked after each error; or it shows no
+// error if other devices did its part.
 void Session::run(const WorkOver& work, Key key) {
   try {
     if (is_lost_) open();

@@ -41,7 +41,7 @@ class Session {
   /// (hear) checks for signals. Throws a RuntimeError, not a
   /// deadlock, if called from within itself, by a progress callback; a ValueError once closed, or
   /// if `key` was dropped; a DeviceError if the device is lost meanwhile. The next call opens it
-  /// anew, and each mesh that was prepared is prepared again by its next use.
+  /// again, and each prepared mesh is prepared again at its next use.
   ///
   /// The first device's Solver is used; the second argument is the mesh that `key` names, or null.
   using Work = std::function<void(Solver&, const PreparedMesh*)>;
@@ -51,11 +51,11 @@ class Session {
       std::function<void(std::span<Solver* const>, std::span<const PreparedMesh* const>)>;
   void use_all(const WorkOver& work, Key key = 0);
 
-  /// Frees the device, after the run of another thread. In a callback of its own run it waits for
-  /// nothing: that run goes on, and is the last.
+  /// Frees the device, after the run of another thread. In a callback of its own run it does not
+  /// wait: that run goes on, and is the last one.
   void close();
 
-  /// Returns the first open device's, or that of the one that was open last.
+  /// Describes the first open device, or the one that was open last.
   DeviceDescription description() const;
 
   /// Frees all at the end of the interpreter: no Session has a device afterwards.
@@ -74,8 +74,8 @@ class Session {
   const std::vector<std::string> selectors_;
   const char* const owner_name_;
   // These belong to the thread that has the turn.
-  std::vector<std::unique_ptr<Opened>> opened_;  // none if a lost device could not be opened anew
-  std::map<Key, MeshPointer> meshes_;            // those that were prepared and not dropped
+  std::vector<std::unique_ptr<Opened>> opened_;  // empty if a lost device could not be opened again
+  std::map<Key, MeshPointer> meshes_;            // meshes that were prepared and not dropped
   bool is_lost_ = false;
   Key last_key_ = 0;
   // These belong to the lock of change_now().

@@ -47,7 +47,7 @@ std::shared_ptr<Session> session_for(const std::vector<std::string>& devices) {
   return sessions().try_emplace(devices, std::move(made)).first->second;
 }
 
-/// The session of a Device; null if `device` is none.
+/// The session of a Device; null if `device` is not a Device.
 std::shared_ptr<Session> shared_session(const Arguments& given) {
   const py::object* device = given.find("device");
   if (device == nullptr || !py::isinstance<PythonDevice>(*device)) return nullptr;
@@ -60,7 +60,7 @@ std::shared_ptr<Session> session_of(const Arguments& given) {
   return shared != nullptr ? shared : session_for({given.device(kDevice)});
 }
 
-/// Does the same where several devices may be asked for.
+/// Does the same for calls that may ask for several devices.
 std::shared_ptr<Session> session_over(const Arguments& given) {
   std::shared_ptr<Session> shared = shared_session(given);
   return shared != nullptr ? shared : session_for(given.devices(kDevices));
@@ -81,7 +81,7 @@ std::unique_ptr<OutputFile> certificate_file(const Outputs& outputs) {
                                       std::vector<std::string>{});
 }
 
-/// A call: its question, its meshes, and the outputs besides the result.
+/// A call: its question, its meshes, and its outputs other than the result.
 struct Given {
   Question question;
   py::object progress, on_progress;
@@ -115,26 +115,26 @@ class Listener {
                 [this](const Progress& p) {
                   meter_.hear(p);
                   take(ours_.outside([&] { return hear(given_.progress, p); }));
-                  tell();
+                  report();
                   return !is_cancelled_;
                 },
             .cells =
                 [this](const SideCount& side) {
                   meter_.hear_cells(side);
-                  tell();
+                  report();
                 },
             .leaves =
                 [this](const SideCount& side) {
                   is_proving_ = true;
                   meter_.hear_leaves(side);
-                  tell();
+                  report();
                 },
             .found = [this](const Answer& answer) { meter_.take(answer); }};
   }
-  /// Tells that all work is done, unless the caller cancelled it.
+  /// Reports that all work is done, unless the caller cancelled it.
   void end(const Answer& answer) {
     meter_.end(answer);
-    tell();
+    report();
   }
 
  private:
@@ -145,7 +145,7 @@ class Listener {
     const bool is_late = is_proving_ && spent.count() >= given_.question.budget.time_limit_s;
     return !is_cancelled_ && !is_late;
   }
-  void tell() {
+  void report() {
     if (is_cancelled_ || given_.on_progress.is_none()) return;
     take(ours_.outside([&] { return hear(given_.on_progress, meter_.done()); }));
   }
@@ -175,7 +175,7 @@ void write_certificate(const Given& given, const AskedPair& pair, const py::obje
   if (PyErr_WarnEx(PyExc_RuntimeWarning, warning, 1) != 0) throw py::error_already_set();
 }
 
-/// Lays A onto B on the device, where that is asked for.
+/// Lays A onto B on the device, if that is asked for.
 void fit(AskedPair& pair, Solver& solver, const PreparedMesh* prepared) {
   FloatEnvironment ours;
   const auto goes_on = [&ours] {
@@ -243,7 +243,7 @@ py::object simplified_of(const Simplified& found) {
                           ends(d.a_to_b.lower, d.a_to_b.upper), back, found.complete, found.tried);
 }
 
-/// Reads the keywords of simplify(), but for the device.
+/// Reads the keywords of simplify(), except the device.
 SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
   const Request asked = request_of(kPySimplify, "simplify", given);
   const Question& question = asked.question;
@@ -267,7 +267,7 @@ SimplifyOptions simplify_options(const Arguments& given, const Mesh& a) {
   throw py::error_already_set();
 }
 
-/// Reads the keywords of simplify_levels(), but for those of simplify().
+/// Reads the keywords of simplify_levels() that simplify() does not have.
 LevelsOptions levels_options(const Arguments& given) {
   constexpr const char* kLevels = "a whole number from 1";
   LevelsOptions options;
@@ -396,7 +396,7 @@ void free_devices() { Session::free_all(); }
 namespace {
 
 // Frees what a Python object holds of a session, without the GIL. `drop` is not called at the
-// interpreter's end, and nothing is where the process was forked.
+// interpreter's end; in a forked process nothing is called.
 void let_go(std::shared_ptr<Session> session, const std::function<void(Session&)>& drop) {
   if (session == nullptr || is_forked()) return;
   try {
@@ -488,7 +488,7 @@ void PythonSolver::close() {
   session.reset();  // unless a run in flight has it, too
 }
 
-// No thread calls it any more: no run of it is in flight.
+// When this runs, no thread calls it any more, so no run of it is in flight.
 PythonSolver::~PythonSolver() {
   let_go(std::move(session_), [this](Session& session) {
     if (shares_device_) session.drop(key_);

@@ -41,7 +41,7 @@ class PythonDevice {
   std::shared_ptr<Session> session_;
 };
 
-/// Mesh B, prepared on a device of its own, or on one that is shared.
+/// Mesh B, prepared on its own device, or on a shared one.
 class PythonSolver {
  public:
   PythonSolver(const pybind11::args& positional, const pybind11::kwargs& named);

@@ -7,8 +7,7 @@
 
 namespace vkh {
 
-/// Nine doubles a face, little-endian, -0 as 0, of so many faces from `first`, or of all that
-/// follow.
+/// Nine doubles a face, little-endian, -0 as 0, for at most `faces` faces from `first` on.
 std::string corner_bytes(const Mesh& mesh, size_t first, size_t faces);
 
 /// The hash of all corner_bytes: 64 hexadecimal digits. Empty: no library.

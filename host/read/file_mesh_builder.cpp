@@ -86,7 +86,7 @@ void FileMeshBuilder::add_face(std::span<const uint32_t> corners) {
     file_faces_.add(faces_.size(), count);
   }
   make_room(0, count);
-  // Reserves for a large polygon what it takes, not twice what there was.
+  // Reserves exactly what a large polygon takes, and not twice the present size.
   if (faces_.capacity() - faces_.size() < count && count > faces_.size())
     faces_.reserve(faces_.size() + count);
   for (size_t i = 2; i < corners.size(); ++i) {
@@ -144,8 +144,8 @@ bool FileMeshBuilder::is_measurable(std::span<const glm::uvec3> faces) const {
   });
 }
 
-// An outline that crosses itself, or encloses nothing, and is no wider than this was spoilt by the
-// rounding of its corners: writers give six digits or decimals. Its fan is as near to any filling.
+// If an outline crosses itself, or encloses nothing, and is no wider than this, the rounding of its
+// corners is the cause: writers give six digits or decimals. Its fan is as near to any filling.
 class FileMeshBuilder::SliverWidth {
  public:
   explicit SliverWidth(const std::vector<glm::dvec3>& vertices) : vertices_(vertices) {}

@@ -12,7 +12,7 @@
 
 namespace vkh {
 
-/// Ends an error about points alone: what was expected, and the option for points.
+/// Ends an error about a file without faces: what was expected, and the option for points.
 inline constexpr const char* kAMesh =
     "a mesh of triangles (STL, OBJ, PLY); in distance, gate and batch, --points a measures points, "
     "b those of the second file, both those of both";
@@ -30,7 +30,7 @@ class FileMeshBuilder {
 
   /// Joins the blocks of a file, in order. Throws InputError if together they break the limits.
   static FileMeshBuilder joined(const MeshSource& source, std::vector<FileMeshBuilder>&& blocks);
-  /// Takes what was read without a builder.
+  /// Takes a mesh that was read without a builder.
   FileMeshBuilder(const MeshSource& source, std::vector<glm::dvec3> vertices,
                   std::vector<glm::uvec3> faces);
 
@@ -68,7 +68,7 @@ class FileMeshBuilder {
   ReadMesh finish(const std::string& place, Positions positions = Positions::kAny) &&;
 
  private:
-  /// Makes room before so many more are added.
+  /// Makes room for this many more vertices and faces.
   void make_room(size_t vertex_count, size_t face_count) {
     constexpr uint64_t kRowsOfTick = 1 << 14;  // about 1 ms
     if (mesh_bytes(vertices_.size() + vertex_count, faces_.size() + face_count) >
@@ -78,7 +78,7 @@ class FileMeshBuilder {
     if (++rows_ % kRowsOfTick == 0) check_going(name_, limits_);
   }
   class SliverWidth;
-  /// The fate of polygons, and the count of those with only a fan that are no slivers.
+  /// The triangulated polygons, and the number of the ones that have only a fan and are no slivers.
   struct Triangulated {
     Polygons polygons;
     uint64_t odd = 0, first_odd = 0;

@@ -124,7 +124,7 @@ class Reader {
     for (uint32_t i = range.begin; i < range.begin + range.count; ++i) use(i);
   }
 
-  // Counts before anything is added, and so before anything is allocated for it.
+  // Counts an instance before it is added, and so before anything is allocated for it.
   void count(const Instance& instance) {
     if (instance.detail->skin != kNone) {
       fail("nodes", instance.node, "a skin, whose pose decides the shape",
@@ -246,7 +246,7 @@ constexpr std::string_view kMagic = "glTF";
 /// The two chunks of a GLB.
 struct Chunks {
   std::string_view json, binary;
-  uint64_t bytes_behind = 0;  ///< those that its header does not count
+  uint64_t bytes_behind = 0;  ///< bytes that its header does not count
 };
 
 Chunks chunks_of(const MeshSource& source) {

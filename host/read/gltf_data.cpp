@@ -295,7 +295,8 @@ Column Data::column(uint32_t number, uint32_t width, uint64_t row_bytes) {
            "elements within its " + counted(size, "byte"));
     }
     column.rows = slice.bytes.data() + accessor.offset;
-  } else if (column.count > input_bytes_) {  // zeros, but for a few: no more than a file could hold
+  } else if (column.count >
+             input_bytes_) {  // mostly zeros: no more elements than a file could hold
     fail(column.place, counted(column.count, "element") + " of zeros",
          "fewer than the file has bytes");
   }

@@ -1,5 +1,5 @@
-// Extensions that a document may require: by the text of Khronos' registry, those that leave every
-// triangle where it is, and those that are read.
+// Extensions that a document may require: the ones that, by the text of Khronos' registry, leave
+// every triangle where it is, and the ones that are read.
 #include <algorithm>
 #include <array>
 
@@ -8,8 +8,8 @@
 namespace vkh::gltf {
 namespace {
 
-// Of these kinds each extension so far is about looks, light, sound, touch or notes; but for drafts
-// that move vertices along a texture.
+// Every extension of these kinds so far is about looks, light, sound, touch or notes, except for
+// drafts that move vertices along a texture.
 constexpr std::array<std::string_view, 24> kKinds = {
     "KHR_materials_", "EXT_materials_", "ADOBE_materials_", "BENTLEY_materials_", "FB_material",
     "MOZ_lightmap",   "NV_materials_",  "VRMC_materials_",  "KHR_texture_",       "EXT_texture_",
@@ -19,9 +19,9 @@ constexpr std::array<std::string_view, 24> kKinds = {
 constexpr std::string_view kDisplaced = "displacement";
 
 // The others by name. Nothing is animated or simulated: a mesh is read as the document places it.
-// Not here, since their triangles are not those of the document without them: compression that is
-// not read (Draco, splats), indices that begin a strip anew, polygons, voxels, instances, places on
-// the globe, articulated and external parts, billboards, numbers of 64 bits.
+// Missing here, since they change the document's triangles: compression that is not read (Draco,
+// splats), indices that restart a strip, polygons, voxels, instances, places on the globe,
+// articulated and external parts, billboards, numbers of 64 bits.
 constexpr std::array<std::string_view, 28> kNames = {
     // read
     "KHR_mesh_quantization", "EXT_meshopt_compression", "KHR_meshopt_compression",
@@ -30,8 +30,7 @@ constexpr std::array<std::string_view, 28> kNames = {
     "EXT_structural_metadata", "EXT_feature_metadata", "EXT_mesh_features", "EXT_instance_features",
     "AGI_stk_metadata", "CVTOOLS_unity_metadata", "FB_geometry_metadata", "GODOT_single_root",
     "GRIFFEL_bim_data",
-    // the same triangles, said in another way besides: edges, solids, n-gons, other levels of
-    // detail
+    // other descriptions of the same triangles: edges, solids, n-gons, levels of detail
     "CESIUM_primitive_outline", "CESIUM_tile_edges", "EXT_mesh_primitive_edge_visibility",
     "EXT_mesh_manifold", "FB_ngon_encoding", "MSFT_lod", "EXT_pbr_attributes",
     // motion, by whom and when; and how it is drawn

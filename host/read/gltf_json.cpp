@@ -115,7 +115,7 @@ bool Handler::boolean(bool value) {
 }
 
 bool Handler::number_float(double value, const std::string& text) {
-  parse_number(text, value);  // correctly rounded, whatever the parser's own function does
+  parse_number(text, value);  // correctly rounded, which the parser's own function need not be
   const bool is_whole = value >= 0 && value < 0x1p53 && value == std::floor(value);
   return number(value, is_whole ? std::optional(static_cast<uint64_t>(value)) : std::nullopt);
 }

@@ -26,7 +26,7 @@ struct NodeDetail {
   uint32_t placing = kNone;
   bool is_hidden = false;         ///< KHR_node_visibility: hidden with all below it
   bool instances = false;         ///< EXT_mesh_gpu_instancing
-  bool has_weights = false;       ///< which override the mesh's
+  bool has_weights = false;       ///< weights that override the mesh's
   bool has_morph_weight = false;  ///< a weight that is not 0
 };
 

@@ -111,8 +111,8 @@ void skip_signature(const MeshSource& source, LasHeader& header) {
   if (Windows::Window(windows).read(header.begin, behind) == kSignature) header.begin = behind;
 }
 
-// Refuses records that the header does not count as it does those that are missing: a part of the
-// points must not pass for all.
+// Refuses records that the header does not count, as well as missing ones: a part of the points
+// must not pass for all.
 void check_records(const MeshSource& source, std::string_view head, const LasHeader& header) {
   const uint64_t size = source.size(), begin = header.begin, bytes = header.record_bytes;
   const uint64_t byte = header.minor >= 4 ? 247 : 107;
@@ -197,7 +197,7 @@ double delta_of(const LasHeader& header, const Extremes& extremes) {
   return 1.01 * length;
 }
 
-/// Records that follow each other: their points stand where those of all records before begin.
+/// Consecutive records. Their points are stored from the place of the first record on.
 struct LasBlock {
   size_t points = 0;
   FileFaces file_faces;
@@ -205,7 +205,7 @@ struct LasBlock {
   uint64_t withheld = 0;
 };
 
-/// The points of a file, and all that is known of them.
+/// The points of a file, and the facts collected about them.
 struct LasPoints {
   std::vector<DVec3> points;
   LasBlock all;

@@ -32,7 +32,7 @@ class CornerMerger {
   }
 
  private:
-  // Sets each corner's number to that of one corner of its position.
+  // Sets each corner's number to the number of one corner at the same position.
   void bring_together() {
     const auto position = [this](uint32_t c) { return glm::dvec3(corners_[c]); };
     PositionIndex index(pool_, corners_.size(), position);

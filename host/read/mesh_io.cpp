@@ -25,7 +25,7 @@ void refuse_stranger(const std::string& name, const Stranger& stranger) {
   if (!stranger.what.empty()) reject(name, "byte 0", stranger.what, stranger.expected);
 }
 
-// Rejects formats that people pass by mistake, with more help than that a keyword is missing.
+// Rejects formats that people pass by mistake, with a better message than a missing keyword.
 void reject_known_strangers(const MeshSource& source, std::string_view head) {
   struct Wrapped {
     std::string_view magic;
@@ -103,14 +103,14 @@ bool looks_like_obj(std::string_view head) {
   return std::find(kKeywords.begin(), kKeywords.end(), scanner.word()) != kKeywords.end();
 }
 
-// Formats that hold points, besides those that hold faces, too.
+// The formats that hold points: point formats, and mesh formats that may have no faces.
 Parse parser_of_points(const std::string& extension, std::string_view head) {
   if (head.starts_with(kLasMagic)) return parse_las;
   if (extension == ".xyz" || extension == ".pts" || extension == ".asc") return parse_xyz;
   return nullptr;
 }
 
-// STL, glTF and 3MF hold faces alone, as far as they are read.
+// STL, glTF and 3MF hold only faces, as far as they are read.
 void refuse_without_points(Parse parse, const std::string& name) {
   for (const auto& [other, what] : {std::pair{&parse_stl, "an STL file"},
                                     {&parse_gltf, "a glTF file"},

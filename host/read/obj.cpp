@@ -28,8 +28,8 @@ constexpr const char* kIndexForms = "a vertex index such as 7, 7/1, 7//1 or 7/1/
 // text.
 enum class Line { kVertex, kFace, kSkipped, kElement, kSurface, kCall, kRemark, kUnknown };
 
-// A line of a material library (MTL), as some exporters paste it into the mesh: those that name a
-// picture, by any word behind map_.
+// Recognises a line of a material library (MTL), which some exporters paste into the mesh: lines
+// that name a picture, by any word that begins with map_.
 bool is_map(std::string_view keyword) {
   static constexpr std::array<std::string_view, 6> kMaps = {"bump", "Bump",  "disp",
                                                             "refl", "decal", "norm"};
@@ -103,7 +103,7 @@ class ObjReader {
   const Ignored& ignored() const { return ignored_; }
 
   const Range& range() const { return range_; }
-  /// Corners of faces, by number, that count from the block's first vertex: modulo 2^32, for they
+  /// Corners of faces, by number, that count from the block's first vertex, modulo 2^32, since they
   /// may be before it.
   const std::vector<uint32_t>& relative() const { return relative_; }
 
@@ -159,9 +159,10 @@ class ObjReader {
     }  // otherwise as the line that this one continues
   }
 
-  // Handles lines that begin with no keyword: skips what continues a skipped line, as those of long
-  // curves (numbers) and group lists (names) do, but not what may be a face; and the Ctrl-Z by
-  // which DOS programs end a text. A line with a keyword is never taken for a continuation.
+  // Handles lines that begin with no keyword. Skips lines that continue a skipped line, as long
+  // curves (numbers) and group lists (names) have them, unless they may be a face. Also skips the
+  // Ctrl-Z by which DOS programs end a text. A line with a keyword is never taken for a
+  // continuation.
   bool is_skipped_too(std::string_view keyword) {
     if (continued_ == Continued::kByNumbers) {
       return keyword.find_first_not_of("+-.0123456789eE/\\") == std::string_view::npos;

@@ -153,8 +153,8 @@ class RowReader {
     return word.empty() ? scanner_.word_across_lines() : word;
   }
 
-  // Nothing may stand behind a row of several lines: rows that lack a word would be read as other
-  // rows.
+  // Nothing may follow a row of several lines on its last line: otherwise rows that lack a word
+  // would be read as other rows.
   void check_wrapped(const char* what, uint64_t number) {
     if (scanner_.line_number() == line_) return;
     if (const auto word = scanner_.word(); !word.empty()) {

@@ -105,7 +105,7 @@ double growth_of(const MeshTransform& placement) {
   return std::ldexp(std::sqrt(up(square / by / by)) * kOutward, scale);
 }
 
-/// One coordinate times p / q, to nearest but for a second rounding, and a bound of its error.
+/// One coordinate times p / q, rounded to nearest (twice in rare cases), and a bound of its error.
 struct Converted {
   double value, off;
 };
@@ -133,7 +133,7 @@ glm::dvec3 converted(const glm::dvec3& point, const MeshTransform& placement, do
   return to;
 }
 
-/// Returns what rounding moved a vertex at most.
+/// Returns the most that rounding moved a vertex.
 double move_vertices(Mesh& mesh, const MeshTransform& placement) {
   double delta = 0;
   if (!placement.matrix) {

@@ -1,6 +1,6 @@
 // PLY, ASCII and binary of both byte orders: any scalar types, any further properties, lists and
-// elements, in any order. ASCII coordinates are correctly rounded doubles whatever their column's
-// float type, so that they equal the same text in any other format; binary floats are widened. A
+// elements, in any order. ASCII coordinates are correctly rounded doubles for every float type of
+// their column, so that they equal the same text in any other format; binary floats are widened. A
 // value that is read from an integer column has to be of its type. Columns that are not read are
 // not checked.
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using namespace ply;
 
-/// The content of a row, to tell what may stand behind it in a text.
+/// The content of a row, which decides what may follow it in a text.
 enum class Row { kVertex, kFace, kOther };
 
 void note_lines(const Lines& lines, const char* text, FileMeshBuilder& builder) {
@@ -46,8 +46,8 @@ class AsciiBody {
                   std::to_string(element.count) + " of them");
   }
   // Words behind a face's corners change nothing: rows are lines, and each list has its own length.
-  // Behind a vertex's properties as many stand in each row, or a row is a face that wrong counts
-  // make a vertex; and a row of another element may be a face, too.
+  // Every vertex must have the same number of words behind its properties; otherwise a row may be a
+  // face that wrong counts make a vertex. A row of another element may be a face, too.
   void end_row(Row row) {
     if (row == Row::kVertex) return end_vertex();
     const auto word = scanner_.word();
@@ -130,7 +130,7 @@ class AsciiBody {
 
   TextScanner& scanner_;
   Lines comments_, longer_, longer_vertices_;
-  std::optional<uint64_t> words_behind_;  ///< each vertex of those that were read
+  std::optional<uint64_t> words_behind_;  ///< the number for every vertex so far
 };
 
 template <std::endian kOrder>
@@ -355,7 +355,7 @@ class BodyReader {
   uint64_t stitches_ = 0;
 };
 
-/// Reads a scalar of each face; all else is passed over.
+/// Reads a scalar of each face; everything else is skipped.
 template <class Body>
 std::vector<double> read_scalar(const Header& header, const Layout& layout, size_t scalar,
                                 Body body) {

@@ -47,11 +47,11 @@ auto with_type(Scalar type, const F& use) {
 }
 // NOLINTEND(bugprone-branch-clone)
 
-/// Rows that follow each other, and what is before and behind them.
+/// Consecutive rows, and their place in the file and the mesh.
 struct RowBlock {
   uint64_t row = 0;       ///< the first
   uint64_t at = 0;        ///< its byte
-  uint64_t triangle = 0;  ///< its first triangle; in the face element alone
+  uint64_t triangle = 0;  ///< its first triangle; only in the face element
 };
 
 /// The blocks of an element, and where the last one ends.
@@ -129,13 +129,13 @@ class BlockReader {
       const uint64_t at = begin + first * row_bytes;
       Windows::Window window(windows_);
       const std::string_view bytes = window.read(at, at + count * row_bytes);
-      for (int axis = 0; axis < 3; ++axis) take_axis(axis, bytes, row_bytes, &vertices_[first]);
+      for (int axis = 0; axis < 3; ++axis) copy_axis(axis, bytes, row_bytes, &vertices_[first]);
       count_read(source_, bytes.size());
     });
     return begin + element.count * row_bytes;
   }
 
-  void take_axis(int axis, std::string_view bytes, uint64_t row_bytes, glm::dvec3* out) const {
+  void copy_axis(int axis, std::string_view bytes, uint64_t row_bytes, glm::dvec3* out) const {
     const std::vector<Property>& properties = layout_.vertex->properties;
     const size_t property = layout_.axes[static_cast<size_t>(axis)];
     uint64_t offset = 0;
@@ -293,7 +293,7 @@ class BlockReader {
       }
     }
 
-    // Checks against what was there a moment ago: another process may write to the file.
+    // Checks again, since another process may write to the file.
     void check_end() const {
       if (at != stop || out != end) refuse(reader.source_);
     }

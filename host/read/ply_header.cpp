@@ -71,7 +71,7 @@ void expect_line_end(TextScanner& scanner) {
   }
 }
 
-// Recognises a keyword in other letters, or misspelt behind its beginning: no remark.
+// Recognises a keyword in other letters, or misspelt after its beginning, which is no remark.
 bool is_like_keyword(std::string_view word) {
   std::string lower(word);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

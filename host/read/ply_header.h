@@ -86,8 +86,8 @@ struct Layout {
   size_t strip_corners = 0;      ///< that in `strips`
 };
 
-/// Rejects a header that lacks vertices, or faces and strips, or has one of the wrong kind; and, of
-/// points, one that has faces.
+/// Rejects a header that lacks vertices, or both faces and strips, or has one of them of the wrong
+/// kind; when points are read, also one that has faces.
 Layout layout_of(const Header& header, const MeshSource& source);
 
 /// The property of `layout.face` of that name; rejects none, several and a list.

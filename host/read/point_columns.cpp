@@ -10,7 +10,8 @@
 namespace vkh {
 namespace {
 
-// What writers call x, but for signs, blanks and units; y and z likewise. ParaView counts axes.
+// The names that writers give x, without signs, blanks and units; y and z likewise. ParaView
+// numbers axes.
 constexpr std::array<std::string_view, 10> kAxis = {
     "@",      "coord@",  "@coord", "coordinate@", "@coordinate",
     "point@", "points@", "pos@",   "position@",   "@pos"};
@@ -136,8 +137,8 @@ ColumnNames::Names ColumnNames::names_between(std::string_view text, char separa
   return names;
 }
 
-// In a comment, a label such as "columns:" before the names is none of them, nor is what explains
-// them behind a colon.
+// In a comment, a label such as "columns:" before the names is no name, nor is an explanation
+// behind a colon.
 ColumnNames::ColumnNames(std::string_view text, From from, size_t line) : from_(from), line_(line) {
   const size_t colon = text.find(": ");
   if (from == From::kComment && colon != std::string_view::npos) {
@@ -190,8 +191,9 @@ bool ColumnNames::has_neighbouring_axes() const {
   return false;
 }
 
-// Adds where x, y and z are in each run of as many names as there are columns. Fewer names are
-// those of the first columns. Counts what enters and leaves a run: lines may be long.
+// Adds the places of x, y and z in each run of as many names as there are columns. If there are
+// fewer names, they belong to the first columns. Counts what enters and leaves a run: lines may be
+// long.
 void ColumnNames::add_readings(std::span<const Name> names, size_t count, Readings& readings) {
   constexpr std::array kInOrder = {Name::kX, Name::kY, Name::kZ};
   if (names.size() < count) {
@@ -213,7 +215,7 @@ void ColumnNames::add_readings(std::span<const Name> names, size_t count, Readin
   }
 }
 
-// Where the names before a list say x, y and z are: a row is as long as its list.
+// The places of x, y and z by the names before a list: a row is as long as its list.
 PointColumns ColumnNames::columns_before_list(size_t list, size_t count) const {
   Readings readings;
   if (list <= count) add_readings(std::span(names_).first(list), list, readings);
@@ -221,8 +223,8 @@ PointColumns ColumnNames::columns_before_list(size_t list, size_t count) const {
   return {.count = list, .may_be_longer = true, .are_named = true, .axes = *readings.first};
 }
 
-// A comment may be a sentence: words before x that are no names may belong to no column. All that
-// it may mean has to be one reading.
+// A comment may be a sentence: words before x that are no names may belong to no column. Only one
+// reading may be possible.
 std::optional<PointColumns> ColumnNames::columns(size_t count) const {
   const auto number = std::find(names_.begin(), names_.end(), Name::kNumber);
   if (!is_heading() && (!has_axes() || number != names_.end())) return std::nullopt;

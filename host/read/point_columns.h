@@ -1,4 +1,4 @@
-// Which columns of a text of points are x, y and z, as its heading or comments name them.
+// Finds which columns of a text of points are x, y and z, by its heading or comments.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@
 
 namespace vkh {
 
-/// How the rows of a text of points are cut and read.
+/// The format of the rows of a text of points.
 struct PointColumns {
   char separator = ' ';        ///< a blank stands for blanks and tabs
   size_t count = 0;            ///< of each row
   bool may_be_longer = false;  ///< rows end in a list, as COLMAP's do
   bool may_be_quoted = false;  ///< cells may be between quotes
-  bool are_named = false;      ///< each of them is, so that the first one is x or is not
+  bool are_named = false;  ///< every column has a name, so that whether the first one is x is known
   std::array<size_t, 3> axes = {0, 1, 2};
 };
 
@@ -26,8 +26,8 @@ class PointCells {
  public:
   /// A separator that is a blank cuts at any blank space. A comment by # ends the row.
   PointCells(std::string_view row, char separator);
-  /// The next cell without blanks and quotes around it; none at the row's end. An empty cell at the
-  /// end is none: writers end rows with a separator.
+  /// Returns the next cell without blanks and quotes around it; nothing at the row's end. An empty
+  /// cell at the end does not count: writers end rows with a separator.
   std::optional<std::string_view> next();
   size_t count_rest();
 
@@ -49,7 +49,7 @@ class ColumnNames {
   bool is_heading() const { return from_ == From::kHeading; }
   /// Whether x, y and z are among its names.
   bool has_axes() const;
-  /// Whether both say the same, wherever they stand.
+  /// Whether both lines have the same names.
   bool is_like(const ColumnNames& other) const {
     return from_ == other.from_ && separator_ == other.separator_ && names_ == other.names_;
   }
@@ -57,12 +57,12 @@ class ColumnNames {
   bool is_title() const;
   /// A comma, a semicolon or a tab that separates the names, or a blank.
   char separator() const { return separator_; }
-  /// Whether it names each of so many columns, x, y and z among them.
+  /// Whether it names each of `count` columns, including x, y and z.
   bool names_each_of(size_t count) const { return has_axes() && names_.size() == count; }
-  /// Where x, y and z are in rows of so many columns, as far as the line says so; nothing if it
-  /// says nothing. Throws UnclearColumns.
+  /// The places of x, y and z in rows of `count` columns, if the line says so. Throws
+  /// UnclearColumns.
   std::optional<PointColumns> columns(size_t count) const;
-  /// Whether it names what is no x, y and z, such as longitude and latitude.
+  /// Whether it names other coordinates, such as longitude and latitude.
   bool names_others() const;
 
  private:
@@ -92,7 +92,7 @@ class ColumnNames {
 /// Thrown by columns(): none or several readings of the names are right.
 struct UnclearColumns {};
 
-/// An example of a heading for so many columns.
+/// An example of a heading for this many columns.
 std::string example_heading(size_t columns, char separator, bool with_number);
 
 }  // namespace vkh

@@ -19,8 +19,8 @@ namespace vkh {
 
 class TextScanner;
 
-/// Finds the format and calls its reader. All of these throw InputError and nothing else but
-/// std::bad_alloc, whatever the bytes are, and Interrupted if keep_going returns false.
+/// Finds the format and calls its reader. For any bytes all of these throw only InputError or
+/// std::bad_alloc, and Interrupted if keep_going returns false.
 ReadMesh parse_mesh(const MeshSource& source);
 ReadMesh parse_obj(const MeshSource& source);
 ReadMesh parse_stl(const MeshSource& source);
@@ -28,10 +28,10 @@ ReadMesh parse_ply(const MeshSource& source);
 ReadMesh parse_off(const MeshSource& source);
 ReadMesh parse_gltf(const MeshSource& source);  ///< GLB, too
 ReadMesh parse_3mf(const MeshSource& source);
-ReadMesh parse_las(const MeshSource& source);  ///< points, whatever limits.points says
+ReadMesh parse_las(const MeshSource& source);  ///< points, even without limits.points
 ReadMesh parse_xyz(const MeshSource& source);  ///< the same; PTS, too
 
-/// The files that parse_gltf reads besides: see files_beneath. Throws what parse_gltf throws for a
+/// The other files that parse_gltf reads: see files_beneath. Throws what parse_gltf throws for a
 /// document that is refused before its numbers are looked at.
 std::vector<FileBeneath> files_of_gltf(const MeshSource& source);
 
@@ -49,7 +49,7 @@ bool is_exact_binary_stl(std::string_view head, uint64_t size);
 bool looks_like_xyz(std::string_view head);
 
 /// Reads what follows the last row that a text announced, and notes it. A line that begins with a
-/// number is a row more than announced and is refused: measuring only those counted would certify a
+/// number is one row too many and is refused: measuring only the announced rows would certify a
 /// part of the model.
 void note_rest(TextScanner& scanner, std::vector<Note>& notes);
 

@@ -54,7 +54,8 @@ class Windows {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// The bytes from `begin` to `end`, until the next call; throws InputError if they are gone.
+    /// The bytes from `begin` to `end`, valid until the next call; throws InputError if the file
+    /// has become shorter.
     std::string_view read(uint64_t begin, uint64_t end);
 
    private:
@@ -92,9 +93,9 @@ auto in_memory(const MeshSource& source, const Read& read) {
   return read(whole);
 }
 
-/// Reads by blocks if there are several and `by_blocks` has no objection. It need not report what
-/// is wrong with a file: after an InputError, `whole` reads all in one, and finds the first mistake
-/// and its line.
+/// Reads by blocks if there are several and `by_blocks` can. That need not report errors well:
+/// after an InputError, `whole` reads everything in one block, and finds the first mistake and its
+/// line.
 template <class ByBlocks, class Whole>
 auto by_blocks_or_whole(const MeshSource& source, const ByBlocks& by_blocks, const Whole& whole) {
   if (source.size() > block_bytes_of(source)) {

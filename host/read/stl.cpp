@@ -124,9 +124,9 @@ bool looks_like_triangle(const char* at, double mesh_size) {
   return corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
 }
 
-// Exporters leave litter behind the last triangle. If it holds another one, with or without stray
-// bytes before it, then the count is wrong: measuring only those counted would certify a part of
-// the model.
+// Exporters leave litter behind the last triangle. If it holds another triangle, with or without
+// stray bytes before it, then the count is wrong: measuring only the counted ones would certify a
+// part of the model.
 void check_rest(std::string_view rest, uint64_t begin, FileMeshBuilder& builder) {
   if (rest.empty()) return;
   refuse_another_solid(rest, begin, builder.name());
@@ -135,7 +135,7 @@ void check_rest(std::string_view rest, uint64_t begin, FileMeshBuilder& builder)
     const glm::dvec3 p = glm::abs(v);
     mesh_size = std::max({mesh_size, p.x, p.y, p.z});
   }
-  // A date, a name, a version: exporters sign so, and digits make floats.
+  // Exporters add a date, a name or a version, and digits look like floats.
   const bool may_be_binary = !is_printable(rest);
   for (size_t at = 0; may_be_binary && at + kTriangleBytes <= rest.size(); ++at) {
     if (!looks_like_triangle(rest.data() + at, mesh_size)) continue;
@@ -198,8 +198,8 @@ ReadMesh read_binary(const MeshSource& source) {
   return std::move(builder).finish(byte_place(kHeaderBytes));
 }
 
-// Merged corners that break the limit are refused as a reader of one corner after the other does: a
-// corner that is there already is counted before it is found.
+// Refuses merged corners that break the limit as a reader of one corner after the other does, which
+// counts a corner before it finds it to be a repeat.
 template <class Corner>
 FileMeshBuilder merged(const MeshSource& source, const ThreadPool& pool, Array<Corner> corners) {
   constexpr uint64_t kSpare = 12;
@@ -249,13 +249,13 @@ bool is_word(std::string_view word, std::string_view lower) {
   });
 }
 
-// STL has no sign for remarks: these are others'.
+// STL has no sign for remarks; these are the signs of other formats.
 bool is_remark(std::string_view word) {
   return word.starts_with('#') || word.starts_with("//") || word.starts_with(';') ||
          word.starts_with('!');
 }
 
-/// What is beside the facets, for notes.
+/// Text beside the facets, for notes.
 struct Beside {
   uint64_t remarks = 0;
   size_t first_remark = 0;   ///< its line
@@ -271,8 +271,8 @@ class AsciiReader {
   AsciiReader(const MeshSource& source, const TextBlock& block, Use& use)
       : block_(block), scanner_(block.scanner(source.name)), use_(use) {}
 
-  // A block that is not the first begins inside a solid, at a facet; one that is not the last ends
-  // so. The text before and behind it is then one with it.
+  // A block that is not the first begins inside a solid, at a facet; a block that is not the last
+  // ends there. The solid then goes on in the next block.
   void read() {
     if (block_.is_first) open_first();
     while (read_solid()) {
@@ -431,7 +431,7 @@ ReadMesh read_ascii(const MeshSource& source) {
   return std::move(builder).finish(place);
 }
 
-// Whether text begins as STL does, perhaps behind remarks: with a solid, or without its line.
+// Whether text begins like STL, perhaps after remarks: with a solid, or with a facet without one.
 bool begins_as_stl(std::string_view text) {
   TextScanner scanner(text, "", '\0', MixedLineEnds::kIgnored);
   std::string_view word = scanner.word_across_lines();
@@ -456,8 +456,9 @@ bool has_text_for_count(const MeshSource& source, std::string_view bytes) {
          !has_room_for_binary(source, bytes);
 }
 
-// Binary headers often begin with "solid" too, but hold zero bytes: in the attributes if nowhere
-// else. Text that begins otherwise is told so, rather than the triangles that its bytes announce.
+// Binary headers often begin with "solid" too, but binary files hold zero bytes, at least in the
+// attributes. For text that begins otherwise the error says so, instead of counting the triangles
+// that its bytes announce.
 bool is_ascii(const MeshSource& source, std::string_view bytes) {
   const size_t zero = bytes.find('\0');
   if (zero == std::string_view::npos) {

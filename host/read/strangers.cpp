@@ -58,7 +58,8 @@ constexpr std::array<Format, 31> kFormats = {{
     {"a mesh of another program", Holds::kMesh, " .3ds .ctm .drc .lwo .abc "},
 }};
 
-/// How files begin that often have another name, or none, and the extension that they should have.
+/// The beginnings of formats whose files often have a wrong extension or none, and the right
+/// extension.
 struct Beginning {
   std::string_view bytes, extension;
 };
@@ -77,7 +78,7 @@ constexpr std::array<Beginning, 12> kBeginnings = {{{"ISO-10303-21", ".step"},
 
 constexpr const char* kExports = "STL, OBJ, PLY, OFF, glTF or 3MF";
 
-Stranger told(const Format& format) {
+Stranger described(const Format& format) {
   const std::string name(format.name), as = std::string(" as ") + kExports;
   switch (format.holds) {
     case Holds::kSurfaces:
@@ -121,7 +122,7 @@ Stranger stranger_by_extension(std::string_view extension) {
   if (extension.empty()) return {};
   const std::string word = " " + std::string(extension) + " ";
   for (const Format& format : kFormats) {
-    if (format.extensions.find(word) != std::string_view::npos) return told(format);
+    if (format.extensions.find(word) != std::string_view::npos) return described(format);
   }
   return {};
 }

@@ -1,4 +1,4 @@
-// Formats that are not read, by name: what a file is, and what to give in its place.
+// Formats that are not read, by name: what a file is, and what to use instead.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct Stranger {
   std::string expected;  ///< "a mesh: export the part as STL, OBJ, PLY, OFF, glTF or 3MF"
 };
 
-/// Recognises a format by how a file begins.
+/// Recognises a format by a file's first bytes.
 Stranger stranger_by_content(std::string_view head);
 /// Recognises a format by a file's extension, which the caller gives in lower case and with its
 /// point: ".step".

@@ -74,8 +74,8 @@ TextBlocks::TextBlocks(const MeshSource& source, uint64_t begin, Cut cut)
   quiet_.limits.keep_going = {};
 }
 
-// A block begins where the first line does after so many bytes, and ends where the next one begins.
-// Both are found from the text after those bytes alone, so that neighbours agree.
+// Block i begins at the first line after i times the block's bytes, and ends where the next one
+// begins. Both places are found by the same rule from the text alone, so that neighbours agree.
 TextBlock TextBlocks::block_at(size_t i, Windows::Window& window) const {
   // Looks for a block's last line 2^8, 2^10, .. bytes beyond the block. The test against kMost
   // follows the attempt, so that the last one looks 4 MiB beyond.

@@ -97,7 +97,7 @@ class RowBlocks {
   }
 
  private:
-  /// The number of the first row of each block, and of all.
+  /// The number of the first row of each block, and then the number of all rows.
   std::vector<size_t> count(uint64_t row_count);
   void check_end(TextScanner& scanner) const;
 

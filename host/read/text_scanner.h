@@ -39,7 +39,7 @@ class TextScanner {
   bool next_line();
   /// Goes to the next line that holds a word.
   bool next_full_line();
-  /// True where the current line ends in a backslash that no comment holds.
+  /// Whether the current line ends in a backslash outside of a comment.
   bool is_continued() const;
   /// Appends the lines that continue the current one. Fails if a backslash splits a word: some
   /// readers take '2\' and '4' as one number, others as two.
@@ -47,7 +47,7 @@ class TextScanner {
 
   /// The next word of the current line, empty at its end.
   std::string_view word();
-  /// What is left of the current line.
+  /// The rest of the current line.
   std::string_view rest() const { return line_.substr(cursor_); }
   /// The first character of the next word of the current line; '\0' at its end.
   char peek() const;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kOrAll = "--bodies all, which measures everything as it lies";
 constexpr size_t kMostLevels = 256;
-// A count larger than any mesh can have, and no sum of two of them wraps.
+// A count larger than any mesh can have, but small enough that a sum of two does not wrap.
 constexpr uint64_t kManyFaces = uint64_t{1} << 40;
 
 class Builder {
@@ -83,8 +83,8 @@ class Builder {
     }
   }
 
-  // Leaves out components that give no face: an object may be used often, and each time its
-  // components that are looked at shall give some.
+  // Leaves out components that give no face: an object may be used often, and then all of its
+  // components that are visited have faces.
   void count_object(uint32_t number) {
     Object& object = model_.objects[number];
     object.face_count = object.measured_count = object.faces.end - object.faces.begin;

@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 4> kKnown = {
     kCore, kProduction, "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
     "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"};
 
-// A namespace without what all of 3MF's begin with: its end tells them apart.
+// A namespace without the common beginning of all 3MF namespaces.
 std::string_view short_name(std::string_view uri) {
   constexpr std::string_view kCommon = "3dmanufacturing/";
   const size_t at = uri.find(kCommon);
@@ -322,7 +322,8 @@ Use Part::use(const Attributes& attributes) {
   return out;
 }
 
-// Sorts the objects so that those that they refer to stand before them: the root's last.
+// Sorts the objects so that each stands behind the objects that it refers to, and the root's
+// objects last.
 void order(const MeshSource& source, Model& model) {
   const auto key = [&](uint32_t i) {
     return std::pair(model.objects[i].part, model.objects[i].id);

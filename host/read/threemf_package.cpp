@@ -18,8 +18,8 @@ struct CloseEntry {
 
 constexpr const char* kExpected = "a 3MF file";
 
-// Resolves a name from the root on, without "." and "..". A backslash is a slash to those who
-// write names as Windows does.
+// Resolves a name from the root on, without "." and "..". A backslash counts as a slash, since some
+// writers have Windows' names.
 std::string without_dots(std::string_view name) {
   std::vector<std::string_view> steps;
   while (!name.empty()) {
@@ -62,8 +62,8 @@ Package::Package(const MeshSource& source)
 
 Package::~Package() = default;
 
-// A name as it is written comes first: not all who write packages know about percents, or that a
-// zip's names have slashes.
+// Tries the name as it is written first: not all writers escape percents, or use slashes in a zip's
+// names.
 int64_t Package::find(const std::string& part) const {
   const std::string plain = without_dots(part);
   const auto with_backslashes = [](std::string name) {

@@ -64,7 +64,7 @@ void on_text(void* data, const char* text, int length) {
   Session& session = session_of(data);
   session.guard([&] { session.reader->text({text, static_cast<size_t>(length)}); });
 }
-// Notes comments and all else that no reader asks for.
+// Notes comments and everything else that no reader uses.
 void on_other(void* data, const char* /*text*/, int /*length*/) { session_of(data).note(); }
 void on_doctype(void* data, const char* /*name*/, const char* /*system*/, const char* /*open*/,
                 int /*has_subset*/) {

@@ -34,8 +34,8 @@ class XmlReader {
   size_t line = 1;  ///< line of the text that is being read
 };
 
-/// Throws what the reader throws, and rejects what is no XML, has a document type (entities are
-/// the bombs of XML) or a tag of more than a quarter of a megabyte.
+/// Throws what the reader throws, and rejects text that is no XML, has a document type (entities
+/// are the bombs of XML) or a tag of more than a quarter of a megabyte.
 void read_xml(const MeshSource& source, Package& package, const std::string& part,
               XmlReader& reader);
 

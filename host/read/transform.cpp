@@ -14,7 +14,7 @@ constexpr double kUlp = 0x1p-53;
 // The most that computing a bound itself, a dozen roundings to nearest, may take off it.
 constexpr double kOutward = 1 + 0x1p-40;
 
-// A number that is not negative, rounded up, and by a little more than needed.
+// Rounds up a number that is not negative, by a little more than needed.
 double up(Float128 x) { return x == 0 ? 0 : static_cast<double>(x) * kOutward + 0x1p-1060; }
 
 struct Entry {
@@ -75,7 +75,7 @@ Float128Rows rotation_of(const std::array<double, 4>& q) {
 
 int sign_of(double x) { return x < 0 ? -1 : x > 0 ? 1 : 0; }
 
-// Of entries that are not all finite, no point is placed, and the sign does not matter.
+// If an entry is not finite, no point is placed, and the sign does not matter.
 int sign_of_determinant(const Affine::Rows& rows) {
   ExactVolume sum;
   for (size_t i = 0; i < 3; ++i) {

@@ -29,14 +29,14 @@ struct Placing {
 };
 /// Returns nothing for a quaternion of length 0.
 std::optional<Affine> affine_of(const Placing& placing);
-/// |q|^2, which shows one that is no rotation by more than its rounding.
+/// |q|^2, which shows whether q is off a unit quaternion by more than rounding.
 double squared_length(const std::array<double, 4>& rotation);
 
 /// Multiplies each coordinate by the quotient of two positive whole numbers.
 Affine scaling(double numerator, double denominator);
 
-/// Applies outer after inner. Each entry is rounded once, from Float128; what that took off is
-/// exact, and so is the sign: determinants multiply.
+/// Applies outer after inner. Each entry is rounded once, from Float128. The error of that is known
+/// exactly, and so is the sign, since determinants multiply.
 Affine compose(const Affine& outer, const Affine& inner);
 
 /// Applies a map to points, and bounds how far each lies from its exact image.

@@ -44,7 +44,7 @@ struct FirstColumn {
   bool may_be_numbers() const { return rows > 1 && increases && (is_consecutive || has_fractions); }
 };
 
-/// What stands before the rows.
+/// The text before the rows.
 struct XyzHead {
   std::vector<ColumnNames> names;
   std::optional<uint64_t> announced;  ///< a count of rows
@@ -110,7 +110,7 @@ void keep_names(const TextScanner& scanner, const ColumnNames& names, XyzHead& h
   head.names.push_back(names);
 }
 
-/// Takes a line before the first row; false for that row.
+/// Reads a line before the first row; returns false at that row.
 bool read_head_line(const TextScanner& scanner, XyzHead& head, bool& has_heading) {
   const size_t line = scanner.line_number();
   TextScanner ahead = scanner;
@@ -140,7 +140,8 @@ XyzHead read_head(TextScanner& scanner) {
   return head;
 }
 
-// The separator of a heading, where the row has it, too; else what is behind the first number.
+// The separator of a heading, if the row has it, too; otherwise the character after the first
+// number.
 char separator_of(const TextScanner& scanner, const std::vector<ColumnNames>& lines) {
   const std::string_view row = scanner.rest();
   for (const ColumnNames& names : lines) {
@@ -209,7 +210,8 @@ class XyzRows {
   XyzRows(TextScanner& scanner, const PointColumns& columns, FileMeshBuilder& builder)
       : scanner_(scanner), columns_(columns), builder_(builder) {}
 
-  /// Reads from the current line to the end, or to the count of another scan behind so many rows.
+  /// Reads from the current line to the end, or, after `announced` rows, to the count of another
+  /// scan.
   void read(std::optional<uint64_t> announced) {
     do {
       if (const auto comment = comment_in_line()) {
@@ -233,7 +235,7 @@ class XyzRows {
     return comment_in(scanner_.rest());
   }
 
-  // A comment between rows may be the heading of others, where files were joined.
+  // A comment between rows may be the heading of further rows, if files were joined.
   void check_comment(std::string_view comment) const {
     const ColumnNames names(comment, ColumnNames::From::kComment, scanner_.line_number());
     try {

@@ -11,7 +11,7 @@
 namespace vkh::drawing {
 namespace {
 
-// A million points, evenly from the file's order, tell where a surface is.
+// A million points, at even steps of the file's order, are enough to find where a surface is.
 constexpr size_t kMostSampled = size_t{1} << 20;
 
 /// Counts the boxes of a grid of `along` boxes a side that have a point.

@@ -33,7 +33,7 @@ struct Axes {
 inline Axes axes_of(glm::dvec3 towards_viewer, Up up) {
   const glm::dvec3 back = glm::normalize(towards_viewer);
   glm::dvec3 above = up == Up::kZ ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-  // A view from above or below has at the top what a person who leans forward has there.
+  // A view from above or below has the same side at the top as for a person who leans forward.
   constexpr double kSteep = 0.999;
   if (std::abs(glm::dot(above, back)) > kSteep)
     above = up == Up::kZ ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, back.y > 0 ? -1 : 1);
@@ -44,12 +44,12 @@ inline Axes axes_of(glm::dvec3 towards_viewer, Up up) {
 /// x and y in pixels of the picture, z in units towards the viewer.
 struct Camera {
   Axes axes;
-  glm::dvec3 centre{};    ///< it is in the middle of the area
+  glm::dvec3 centre{};    ///< the point in the middle of the area
   double scale = 1;       ///< pixels a unit
   double reach = 1;       ///< distance behind `centre` up to which something is drawn
   double before = 1;      ///< the same before it, towards the viewer
   double spacing = 0;     ///< between points, in units; 0: there are faces
-  double widest = 0.009;  ///< a point's disc at most, as a share of the area's width
+  double widest = 0.009;  ///< the widest disc of a point, as a share of the area's width
   Area area;
 
   glm::dvec3 turned(glm::dvec3 v) const {
@@ -125,8 +125,8 @@ inline bool hides(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c,
   return (u * a.z + v * b.z + w * c.z) / all > p.z + slack;
 }
 
-/// About how far points of a surface are from their neighbours, in the files' units: the root of
-/// the area that one of them has. 0 for a mesh that is no points.
+/// The approximate distance of a surface's points from their neighbours, in the files' units: the
+/// root of the area per point. 0 for a mesh that is not points.
 double spacing_of(const Mesh& mesh);
 
 /// Returns whether no disc of another point stands before the point.

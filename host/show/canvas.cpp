@@ -16,7 +16,7 @@
 namespace {
 
 // Deflates a PNG's rows, as stb asks for it: null if there is no memory. Level 3 takes a third of
-// the time of stb's own, for fewer bytes. stb frees them by free().
+// the time of stb's own deflate, and gives fewer bytes. stb frees them by free().
 unsigned char* deflated_rows(unsigned char* rows, int size, int* packed_size, int) {
   constexpr int kLevel = 3;
   uLongf packed = compressBound(static_cast<uLong>(size));
@@ -163,7 +163,7 @@ void Canvas::arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour) {
 
 }  // namespace vkh::drawing
 
-// Letters and PNG: the parts that stb's libraries of one file do.
+// Letters and PNG, by stb's single-file libraries.
 #ifdef VKH_HAS_STB
 
 namespace vkh {

@@ -27,9 +27,9 @@ class Canvas {
   void disc(glm::dvec2 centre, double radius, Rgb colour);
   /// Draws a convex polygon, its corners in the order of a clock's hand.
   void polygon(const std::vector<glm::dvec2>& corners, Rgb colour);
-  /// Draws stripes as a cell that is not resolved has them.
+  /// Draws the stripes of an unresolved cell.
   void hatch(const Area& area, double period);
-  /// Draws a line, so wide, with a head at `to`.
+  /// Draws a line of this width, with a head at `to`.
   void arrow(glm::dvec2 from, glm::dvec2 to, double width, Rgb colour);
 
  private:
@@ -48,7 +48,7 @@ struct Ink {
   Align align = Align::kLeft;
 };
 
-/// Writes UTF-8; a box for what the font lacks. `at`: on the base line.
+/// Writes UTF-8; a character that the font lacks becomes a box. `at`: on the base line.
 void write(Canvas& canvas, glm::dvec2 at, std::string_view text, const Ink& ink);
 double text_width(std::string_view text, double size);
 /// Shortens to no more than `width`: leaves out as much from the middle as is needed.

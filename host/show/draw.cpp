@@ -50,7 +50,7 @@ class Drawing {
   void draw_lines(const std::vector<std::string>& lines, double y);
   struct Label {
     glm::dvec2 tip, size;
-    double clear;  ///< no nearer to the tip than that
+    double clear;  ///< the least distance from the tip
   };
   /// A label that has its place: its box, and the point to which its line goes.
   struct Placed {
@@ -84,11 +84,10 @@ class Drawing {
 std::string Drawing::colours_text() const {
   if (mapped_.is_of_bounds()) return mapped_.colours_of_bounds();
   const std::string other = picture_.back ? "A" : "B";
-  std::string text =
-      "Colour: the estimated distance from " + other +
-      (mapped_.scale->is_signed() ? ", off by at most 5 % of the bar, 10 % about nought,"
-                                  : ", off by at most 5 % of the bar,") +
-      " where it is not hatched.";
+  std::string text = "Colour: the estimated distance from " + other +
+                     (mapped_.scale->is_signed() ? ", off by at most 5 % of the bar, 10 % around 0,"
+                                                 : ", off by at most 5 % of the bar,") +
+                     " where it is not hatched.";
   if (!mapped_.scale->is_signed()) text += " Over and under " + other + " are not told apart.";
   if (picture_.mesh.are_points) text += " A disc is a point.";
   if (!mapped_.places.empty() && options_.view.kind != View::Kind::kSix)
@@ -154,7 +153,7 @@ void Drawing::draw_header() {
   const double u = unit_, x = 36 * u, width = options_.width - 2 * x, gap = 44 * u;
   const char* first = picture_.back ? "B" : "A";
   const char* second = picture_.back ? "A" : "B";
-  const double least = 25 * u * 6;  // a short name leaves its room to the other
+  const double least = 25 * u * 6;  // a short name leaves room for the other
   const double wanted = text_width(picture_.against, 25 * u) + 43 * u;
   const double half = (width - gap) / 2;
   const double for_second = std::clamp(wanted, std::min(least, half), half);
@@ -222,8 +221,8 @@ Image Drawing::draw() {
   return std::move(image_);
 }
 
-/// Draws the numbers of the places; in a single view with their distances, and those that are
-/// hidden in grey. Lines of labels are under the numbers.
+/// Draws the numbers of the places, hidden ones in grey; in a single view with their distances.
+/// Lines of labels are under the numbers.
 void Drawing::draw_numbers(const Panel& panel, const Layer& layer, bool is_single) {
   std::vector<Placed> labels;
   for (size_t i = 0; is_single && i < mapped_.places.size(); ++i)
@@ -242,7 +241,7 @@ glm::dvec2 nearest_in(const Area& box, const glm::dvec2& point) {
   return glm::clamp(point, glm::dvec2(box.x, box.y), glm::dvec2(box.right(), box.bottom()));
 }
 
-/// Whether a line from p to q passes through the box, as 64 of its points see it.
+/// Whether a line from p to q passes through the box, by 64 of its points.
 bool meets(const Area& box, const glm::dvec2& p, const glm::dvec2& q) {
   constexpr int kPoints = 64;
   for (int i = 0; i <= kPoints; ++i) {

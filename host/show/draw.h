@@ -20,7 +20,7 @@ struct Image {
   std::vector<uint8_t> rgba;
 };
 
-/// The point of A that proves lower, and its closest point on B.
+/// The point of A that proves the lower bound, and its closest point on B.
 struct Witness {
   SurfacePoint on_a, on_b;
   /// The largest distance; its upper end is infinite where it was not sought.
@@ -31,11 +31,11 @@ struct Witness {
 struct Picture {
   const Mesh& mesh;
   const Field& field;
-  Enclosure interval;                     ///< encloses the largest distance over the mesh
-  std::optional<Limit> limit = {};        ///< the limit that was asked about
-  std::string limit_as = {};              ///< as the user typed it; empty: by its number
-  std::optional<Verdict> verdict = {};    ///< for all that was asked; otherwise by interval and
-                                          ///< limit
+  Enclosure interval;               ///< encloses the largest distance over the mesh
+  std::optional<Limit> limit = {};  ///< the limit that was asked about
+  std::string limit_as = {};        ///< as the user typed it; empty: by its number
+  std::optional<Verdict> verdict =
+      {};  ///< of the whole question; otherwise it follows from interval and limit
   std::optional<Witness> witness = {};    ///< it is one of the worst places
   std::string unit = {};                  ///< of lengths; empty: the files' units
   std::string name = {}, against = {};    ///< names of both meshes, as people know them
@@ -54,7 +54,7 @@ struct Picture {
 struct View {
   enum class Kind {
     kIso,        ///< from above a corner of the box
-    kSix,        ///< along each axis, in one picture; without those that see nothing
+    kSix,        ///< along each axis, in one picture, without views that see nothing
     kDirection,  ///< from `direction`
   };
   Kind kind = Kind::kIso;

@@ -21,7 +21,7 @@ struct PictureStyle {
   bool is_plain = false;  ///< distances have signs only where the question asks for sides
 };
 
-/// Throws UsageError for a view, an axis, a size or a map that there is not.
+/// Throws UsageError for an invalid view, axis, size or map.
 PictureStyle style_of(const Look& look);
 
 /// An answer with its surveys and its inputs.
@@ -39,7 +39,7 @@ struct Side {
   bool back;
 };
 
-/// Asks for what such a picture shows: a map by cells.
+/// Adds to the question what such a picture shows: a map by cells.
 void ask_for(const PictureStyle& look, Question& question);
 
 /// Returns one, or both of a symmetric answer. Throws OutputError if nothing was surveyed.
@@ -50,18 +50,18 @@ std::string label_of(const Answer& answer, bool back);
 
 Enclosure interval_of(const Side& side);
 
-/// All that a picture of a side shows, and a page and a table of its places, too. It refers to the
-/// side and the answer.
+/// The data of a picture of a side, and of a page and a table of its places. It refers to the side
+/// and the answer.
 Picture drawn_of(const Side& side, const Answer& answer);
 
-/// An answer as its pictures and its page show it: what both need is found once.
+/// An answer as its pictures and its page show it: data that both need are computed once.
 class ShownAnswer {
  public:
   /// Refers to what is measured. Throws what sides_of() and check_picture() throw, and UsageError
   /// for a range that the files' units do not resolve.
   ShownAnswer(const Measured& measured, const PictureStyle& look);
 
-  /// Returns the bytes of a PNG for each side: they stand in where a page has no WebGL.
+  /// Returns the bytes of a PNG for each side. A page shows them if there is no WebGL.
   std::vector<std::string> pictures() const;
 
   /// Returns a page, with `pictures` of the sides and their colours. `title`: its heading; empty:

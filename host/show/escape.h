@@ -1,4 +1,4 @@
-// Makes texts from files and people harmless where they stand in a page.
+// Escapes texts from files and people, so that they are harmless in a page.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ inline constexpr std::array kUnseen = {
 inline constexpr std::array kMarkup = {Replacement{"&", "&amp;"}, Replacement{"<", "&lt;"},
                                        Replacement{">", "&gt;"}, Replacement{"\"", "&quot;"},
                                        Replacement{"'", "&#39;"}};
-// Replacements within strings alone, since JSON has such characters nowhere else.
+// Replacements in strings, which are the only place where JSON has such characters.
 inline constexpr std::array kInScript = {
     Replacement{"<", "\\u003c"}, Replacement{">", "\\u003e"}, Replacement{"&", "\\u0026"},
     Replacement{"\u2028", "\\u2028"}, Replacement{"\u2029", "\\u2029"}};
@@ -53,8 +53,8 @@ std::string replaced(std::string_view text, const std::array<Replacement, kCount
 
 }  // namespace escape
 
-/// Escapes for text and for attributes in quotes. Control characters and those that turn a line's
-/// direction are written out, as \xNN and \u{NNNN}. `text` is UTF-8.
+/// Escapes for text and for attributes in quotes. Control characters, and characters that change a
+/// line's direction, are written out, as \xNN and \u{NNNN}. `text` is UTF-8.
 inline std::string html_text(const std::string& text) {
   return escape::replaced(escape::replaced(printable(text), escape::kUnseen), escape::kMarkup);
 }

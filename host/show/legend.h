@@ -21,15 +21,14 @@ struct Ticks {
 /// Returns round numbers in the range, from two to about `most`.
 Ticks ticks_of(const Enclosure& range, size_t most);
 
-/// The interval's ends as they are printed, rounded outward, and neither on the other side of the
-/// limit.
+/// The interval's ends as they are printed, rounded outward, but not across the limit.
 struct PrintedInterval {
   std::string lower, upper;
 };
 PrintedInterval printed(const Picture& picture);
 /// Returns "0.1 mm"; a number alone if the unit is not known.
 std::string with_unit(const Picture& picture, const std::string& number);
-/// The limit as the user asked for it: a length, and no bound.
+/// The limit as the user typed it: a length, not a rounded bound.
 std::string limit_text(const Picture& picture);
 /// "the limit is 0.1 mm", for a share of a diagonal with its length, too; or "the limits are
 /// +0.2 mm over and −0.1 mm under B".

@@ -20,8 +20,8 @@ const char* of_what(const Picture& picture) {
   return picture.mesh.are_points ? " of the points" : " of the area";
 }
 
-// A survey that was not cut short leaves cells that are smaller than a pixel. Many of them side by
-// side are seen.
+// A complete survey may leave unresolved cells that are smaller than a pixel. Many of them side by
+// side are visible.
 std::string unresolved_text(const Picture& picture, double share) {
   const bool is_small = picture.unfinished.empty() && !picture.mesh.are_points;
   if (picture.mesh.polygons.any_triangulation)

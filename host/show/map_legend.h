@@ -9,15 +9,15 @@
 
 namespace vkh::drawing {
 
-/// The legend's input, besides the sheet.
+/// The legend's input, in addition to the sheet.
 struct MapLegend {
   const MapScale& scale;
   const MapCounts& counts;
   const std::vector<MapPlace>& places;
 };
 
-/// A row of what the bar's colours do not tell: a swatch, and its text with a share of the area
-/// or of the points.
+/// A row for what the bar's colours do not show: a swatch, and its text with a share of the area or
+/// of the points.
 struct LegendRow {
   Rgb colour;
   bool is_hatched;
@@ -30,7 +30,7 @@ std::string bar_title(const Picture& picture, const MapScale& scale);
 /// About four digits; a minus sign as a bar has it.
 std::string short_number(double x);
 
-/// Draws the bar with its limits, and below it what the bar's colours do not tell.
+/// Draws the bar with its limits, and below it the rows for what its colours do not show.
 void draw_map_bar(const Sheet& sheet, const MapLegend& legend, const Area& area);
 /// Lists the places by their numbers: distance and coordinates. Returns the height that it takes.
 double draw_places(const Sheet& sheet, const MapLegend& legend, const Area& area);

@@ -41,7 +41,7 @@ MapPlace place_at(const glm::dvec3& point, const CellMap& map, const MapCell& ce
           .known = map.around(estimate, static_cast<double>(cell.width))};
 }
 
-// Whether a cell has a point of its face, but for rounding.
+// Whether a cell contains a point of its face, up to rounding.
 bool has_point(const MapCell& cell, const glm::dvec3& barycentric) {
   const std::array<glm::dvec3, 3> t = weights_of(cell);
   const auto side = [&](const glm::dvec3& p, const glm::dvec3& q) {
@@ -52,7 +52,7 @@ bool has_point(const MapCell& cell, const glm::dvec3& barycentric) {
          side(t[2], t[0]) >= -kRounding;
 }
 
-// The place of the witness. It comes before those that are not proven to be farther.
+// The place of the witness. It precedes places that are not proven to be farther.
 MapPlace place_of_witness(const CellMap& map, const Witness& witness) {
   constexpr double kClosed = 1e-3;  // its ends are the same to the eye
   const Enclosure& known = witness.distance;
@@ -86,7 +86,7 @@ class MapGrid {
     step_ = std::max(step_, kSpacings * drawing::spacing_of(mesh));
   }
 
-  /// Adds the corners of a cell that are at least so far; a point's are one.
+  /// Adds the corners of a cell that are at least `least` far; a point's three corners are one.
   void add(const Mesh& mesh, const CellMap& map, const MapCell& cell, float least) {
     if (largest_of(cell) < least) return;
     const std::array<glm::dvec3, 3> weights = weights_of(cell);
@@ -121,7 +121,7 @@ class MapGrid {
 
   const std::vector<MapPlace>& places() const { return places_; }
 
-  /// Calls visit(number) for the boxes around a box, and those that cells link to it.
+  /// Calls visit(number) for the boxes around a box, and for the boxes that cells link to it.
   template <class Visit>
   void around(size_t number, const Visit& visit) const {
     for (const size_t other : linked_[number]) visit(other);
@@ -134,8 +134,8 @@ class MapGrid {
   }
 
  private:
-  // Numbers along the axes. Rounding may put a point beside the mesh's box, and boxes beside it are
-  // looked at, too: two more at each end.
+  // Numbers along the axes. There are two more boxes at each end, since rounding may put a point
+  // beside the mesh's box, and neighbours of its box are visited, too.
   using BoxAt = std::array<int64_t, 3>;
   static constexpr size_t kRow = kGrid + 5;
   static constexpr uint32_t kNone = UINT32_MAX;
@@ -183,8 +183,8 @@ class MapGrid {
   std::vector<std::vector<size_t>> linked_;
 };
 
-// Boxes from the farthest down: each joins the clusters beside it. Where two meet, the less far one
-// ends, unless it rises to twice what it is where they meet.
+// Boxes from the farthest down: each joins the clusters beside it. Where two clusters meet, the
+// less far one ends, unless its distance is twice the one where they meet.
 class FarClusters {
  public:
   explicit FarClusters(const MapGrid& grid)
@@ -233,14 +233,15 @@ class FarClusters {
   std::vector<size_t> kept_, peaks_;
 };
 
-// A stray triangle makes no other place too small: the bar's end counts, where that is nearer.
+// A stray triangle must not make all other places too small: if the bar's end is nearer, that
+// counts.
 float least_of_places(const CellMap& map, float largest) {
   const double end = std::min(static_cast<double>(largest), map.bar / map.unit);
   return static_cast<float>(kLeastOfLargest * (end > 0 ? end : static_cast<double>(largest)));
 }
 
-// The boxes of all cells that have a place that is at least so far. Lots of cells are added as if
-// one thread had added all.
+// The boxes of all cells with a place that is at least `least` far. Cells are added in lots, with
+// the same result as on one thread.
 MapGrid grid_of(const Mesh& mesh, const CellMap& map, float least) {
   constexpr size_t kLeastLot = size_t{1} << 17;  // cells: a grid takes 1.3 MB
   const size_t count = map.cells.size(), size = std::max(kLeastLot, count / thread_count() + 1);

@@ -17,7 +17,7 @@ Rgb mixed(Rgb from, Rgb to, double share) {
   return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
 }
 
-// From blue over nearly white to red; paler within limits, so that what is beyond stands out.
+// From blue over nearly white to red; paler within limits, so that distances beyond them stand out.
 Rgb signed_colour(double share, bool is_pale) {
   constexpr Rgb kMiddle{238, 236, 230};
   const Rgb under = is_pale ? Rgb{126, 176, 214} : Rgb{33, 76, 168};
@@ -56,11 +56,11 @@ void MapScale::set_palette(const PictureOptions& options) {
     palette_.below[i] = mixed(kUnderBeyond[0], kUnderBeyond[1], share);
     palette_.above[i] = mixed(kBeyond[0], kBeyond[1], share);
   }
-  const double nought =
+  const double zero =
       std::clamp((share_of(0) - palette_.from) / (palette_.to - palette_.from), 1e-3, 1 - 1e-3);
   for (size_t i = 0; i < Palette::kWithin; ++i) {
     const double share = step(i, Palette::kWithin);
-    const double turned = share < nought ? share / nought / 2 : 1 - (1 - share) / (1 - nought) / 2;
+    const double turned = share < zero ? share / zero / 2 : 1 - (1 - share) / (1 - zero) / 2;
     palette_.within[i] = is_signed() ? signed_colour(turned, bar_.limit.has_value())
                                      : map_colour(options.map, share);
   }

@@ -1,4 +1,4 @@
-// The colours of a map by cells: what a distance looks like, and what cells look like to a camera.
+// The colours of a map by cells: of distances, and of the cells that a camera sees.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace vkh::drawing {
 
-/// The colour of what is above the bar, or below a signed one's lower end; of cells that have no
-/// side; and of what is left out.
+/// The colours of distances above the bar, or below a signed bar's lower end; of cells without a
+/// side; and of cells that are left out.
 inline constexpr Rgb kOver{214, 32, 140}, kBelow{91, 15, 128}, kNoSide{150, 150, 150},
     kLeftOut{205, 209, 218};
-/// The colour between the stripes of the legend's swatch for what is not resolved.
+/// The colour between the stripes of the legend's swatch for unresolved cells.
 inline constexpr Rgb kUnresolved{215, 215, 215};
 
 /// Distances to shares of a bar, and shares to colours. Distances are signed where the map has
@@ -28,7 +28,7 @@ class MapScale {
   double high() const { return bar_.high; }
   double length() const { return bar_.high - bar_.low; }
   bool is_signed() const { return map_.has_sides; }
-  /// The limits, where there are some: the lower one is of a signed bar alone.
+  /// The limits, if there are any. Only a signed bar has the lower one.
   std::optional<double> limit() const { return bar_.limit; }
   std::optional<double> limit_under() const { return bar_.limit_under; }
   double share_of(double distance) const { return bar_.share_of(distance); }
@@ -36,10 +36,10 @@ class MapScale {
   const Palette& palette() const { return palette_; }
 
   bool is_left_out(const MapCell& cell) const { return map_.is_left_out(cell); }
-  /// The same as the functions of these names say, of the picture's map and this bar.
+  /// Call the functions of the same names with the picture's map and this bar.
   bool is_without_side(const MapCell& cell) const { return vkh::is_without_side(map_, bar_, cell); }
   bool is_unresolved(const MapCell& cell) const { return vkh::is_unresolved(map_, bar_, cell); }
-  /// The colour of a cell that the bar does not have; none: its distances are coloured.
+  /// The colour of a cell that is not coloured by its distances; nothing: it is.
   std::optional<Rgb> plain_colour(const MapCell& cell) const;
   double distance_at(const MapCell& cell, size_t corner) const {
     return vkh::distance_at(map_, cell, corner);
@@ -63,7 +63,7 @@ struct MapCounts : MapShares {
   static constexpr size_t kBins = 36;
   std::array<double, kBins> bins{};
 };
-/// `known`: the map's shares by the scale's bar, where the survey has added them up.
+/// `known`: the map's shares by the scale's bar, if the survey has added them up.
 MapCounts counts_of(const CellMap& map, const MapScale& scale, const MapShares* known = nullptr);
 
 }  // namespace vkh::drawing

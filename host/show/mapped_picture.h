@@ -1,4 +1,4 @@
-// A picture with what its pixels and its page's texts are made from.
+// A picture with the data of its pixels and of its page's texts.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ struct MappedPicture {
   MapCounts counts;
 };
 
-/// Draws what check_picture() takes. `options` are those of the map.
+/// Draws a picture that check_picture() accepts. `options`: the ones that the map was made with.
 Image draw(const MappedPicture& mapped, const PictureOptions& options);
 
 }  // namespace vkh::drawing

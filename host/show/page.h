@@ -13,7 +13,7 @@
 
 namespace vkh {
 
-/// The measured mesh of one direction. All that is pointed at stays the caller's.
+/// The measured mesh of one direction. The caller owns everything that it points to.
 struct PageDirection {
   std::shared_ptr<const drawing::MappedPicture> shown;  ///< by the view, as by a picture
   std::string_view picture = {};                        ///< a PNG's bytes; empty: none
@@ -34,8 +34,8 @@ struct PageLimits {
 
 /// Returns the whole file, which carries the answer's JSON. Its figures are the answer's and its
 /// survey's, and shares of area are the survey's at every tolerance. The view has the colours and
-/// places of a picture, in fewer cells of the same map; of a mesh of more faces than a page holds,
-/// in fewer faces, and says so.
+/// places of a picture, in fewer cells of the same map. If a mesh has more faces than a page holds,
+/// the view has fewer faces, and says so.
 std::string to_page(const PageContents& contents, const PageLimits& limits = {});
 
 }  // namespace vkh

@@ -16,8 +16,8 @@ namespace {
 // Two digits with even ratios: E24 of IEC 60063, which engineers know from resistors.
 constexpr std::array kSeries = {10, 11, 12, 13, 15, 16, 18, 20, 22, 24, 27, 30,
                                 33, 36, 39, 43, 47, 51, 56, 62, 68, 75, 82, 91};
-constexpr int kDecades = 6;           // below the largest distance; less is as good as 0 to the eye
-constexpr double kLinearSteps = 500;  // at least so many: finer than a hand drags
+constexpr int kDecades = 6;           // below the largest distance; to the eye, less is 0
+constexpr double kLinearSteps = 500;  // at least this many: finer than a hand drags
 constexpr double kNiceFactors[] = {5, 2, 1};
 
 // Makes the double nearest to a decimal of few digits. The decimal itself lies between its
@@ -46,7 +46,7 @@ void add_linear(std::vector<Step>& steps, double top) {
       break;
     }
   }
-  // Ten times kLinearSteps is more than any: no input makes this loop longer.
+  // Ten times kLinearSteps is more than ever needed: no input makes this loop longer.
   for (double i = 0; i <= 10 * kLinearSteps; ++i) {
     steps.push_back(step_of(i * factor, exponent));
     steps.back().is_linear = true;
@@ -65,7 +65,7 @@ void add_log(std::vector<Step>& steps, double top) {
   }
 }
 
-// Puts the limit in: steps that it overlaps give way, so that both ends of all limits ascend.
+// Inserts the limit. Removes steps that it overlaps, so that both ends of all limits ascend.
 void add_asked(std::vector<Step>& steps, const Limit& asked) {
   std::erase_if(steps, [&](const Step& step) {
     return step.limit.beyond >= asked.within && step.limit.within <= asked.beyond;

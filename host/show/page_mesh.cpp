@@ -81,7 +81,7 @@ class Clusters {
     return true;
   }
 
-  // Keeps faces whose corners are in three cells; one for each three cells, whichever way round.
+  // Keeps faces whose corners are in three cells, one for each set of three cells.
   bool keep_faces() {
     const HashSecret& secret = hash_secret();
     HashIndex triples(
@@ -263,7 +263,7 @@ ShownMesh mesh_of_cells(const Mesh& mesh, const std::vector<ShownCell>& cells) {
   return shown;
 }
 
-// Values that one shown face has for all faces that it stands for.
+// The value of a shown face, for all faces that it stands for.
 class Worst {
  public:
   void add(const ShownValue& value) {
@@ -292,7 +292,7 @@ class Worst {
   size_t hatched_ = 0, sideless_ = 0, count_ = 0;
 };
 
-// A part without a side that stands with others is on either side of B.
+// A part without a side, shown together with others, may be on either side of B.
 void add_to(Worst& worst, ShownValue value, bool is_signed) {
   worst.add(value);
   if (!is_signed || !value.is_sideless) return;

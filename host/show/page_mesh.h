@@ -45,8 +45,8 @@ struct ShownMesh {
 };
 
 /// The cells of a map, or if even the faces are more than `most_faces`, fewer faces that stand for
-/// all: each is shown by the farthest of what it stands for, and its width covers all of that, but
-/// for what is left out beside something that is not. Points are faces of one place each.
+/// all: each shows the farthest of the faces that it stands for, and its width covers all of them,
+/// except parts that are left out beside parts that are not. Points are faces of one place each.
 ShownMesh shown_mesh(const Mesh& mesh, const CellMap& map, const drawing::MapScale& scale,
                      size_t most_faces);
 

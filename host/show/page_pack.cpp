@@ -29,8 +29,8 @@ void append_streams(std::string& out, const std::vector<uint32_t>& numbers, int 
   }
 }
 
-/// A difference of two numbers of so many bits, modulo 2^bits; small ones of either sign are small
-/// numbers.
+/// The difference of two numbers of `bits` bits, modulo 2^bits, coded so that small differences of
+/// either sign are small numbers.
 uint32_t difference(uint32_t to, uint32_t from, int bits) {
   const uint32_t mask = (uint32_t{1} << bits) - 1, up = (to - from) & mask;
   if (up >> (bits - 1) == 0) return 2 * up;
@@ -77,7 +77,7 @@ uint32_t distance_bits(double share) {
 }
 constexpr double kDistanceRounding = 0x1p-15, kLeastDistance = 0x1p-120;
 
-// No smaller than the share, with 8 of its digits.
+// A number that is no smaller than the share, with 8 of its digits.
 uint32_t width_bits(double share) {
   auto rounded = static_cast<float>(share);
   if (static_cast<double>(rounded) < share)
@@ -149,7 +149,7 @@ class Deflating {
   Deflating& operator=(const Deflating&) = delete;
   ~Deflating() { deflateEnd(&stream_); }
 
-  /// `next`: the strategy of what follows.
+  /// `next`: the strategy for the next part.
   void add(std::string_view bytes, int next) {
     run(bytes, Z_NO_FLUSH);
     deflateParams(&stream_, level_, next);

@@ -15,7 +15,7 @@ std::string count_text(const Input& input, uint64_t count) {
   return input.is_read ? grouped(count) : "not known";
 }
 
-/// A row for both inputs; nothing where both texts are empty.
+/// A row for both inputs; nothing if both texts are empty.
 template <class Text>
 void add_input_row(const Answer& answer, Json& rows, const char* name, const Text& text,
                    bool is_code = false) {

@@ -30,7 +30,7 @@ Json named(const std::string& name, const std::string& text) {
   return {{"name", name}, {"text", text}};
 }
 
-// A figure is told by its estimate, and by its range where one number does not tell both ends.
+// A row with a figure's estimate, and with its range if one number cannot stand for both ends.
 Json length_row(const Answer& answer, const std::string& name, const Enclosure& length) {
   Json row = named(name, length_text(answer, length));
   const bool is_range = std::string(row["text"]).find(" to ") != std::string::npos;
@@ -50,7 +50,7 @@ std::string estimated_percent(const Enclosure& share) {
          " %";
 }
 
-// A share is told of all `asked`, where a limit is of a share.
+// A row with a share; `asked`: the share that a limit asks for.
 Json share_row(const std::string& name, const Enclosure& share, double asked) {
   Json row = named(name, share_text(share, asked));
   const bool is_range = share.upper - share.lower >= 2e-4;
@@ -73,7 +73,7 @@ Json left_out_row(const Answer& answer, const AnswerFigure& kept, const char* of
                share_text(rest) + " of the " + of);
 }
 
-// A signed mean is told where its sign is known.
+// Adds a signed mean if its sign is known.
 void add_signed_mean(const Answer& answer, const Enclosure& mean, Json& rows) {
   if (!(mean.lower * mean.upper > 0)) return;
   const bool is_out = mean.lower > 0;
@@ -114,7 +114,7 @@ glm::dvec3 normal_of(const Mesh& mesh, size_t face) {
   return area > 0 ? across / area : glm::dvec3(0);
 }
 
-// The distance is estimated, and is told as the picture tells it; what is proven stands below.
+// The distance is an estimate, written as in the picture; its proven bounds stand below.
 Json place_view(const Answer& answer, const Picture& drawn, const MapPlace& place, size_t number) {
   const std::string key = std::to_string(number);
   const std::string length = place_text(drawn, place), known = length_text(answer, place.known);
@@ -200,7 +200,7 @@ Json facts_of(const Answer& answer) {
   return facts;
 }
 
-// The effort was used, as on most CPUs, before all figures were as narrow as they were to be.
+// Whether the effort was used before all figures were as narrow as asked, as happens on most CPUs.
 bool has_used_effort(const Answer& answer, bool back) {
   const std::optional<SurveyResult>& survey = back ? answer.survey_b : answer.survey_a;
   return survey && survey->ended == SurveyEnd::kEffort;

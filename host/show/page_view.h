@@ -1,5 +1,5 @@
-// The texts of a page, as the data of its template: they stand in the file, whatever the viewer
-// does.
+// The texts of a page, as the data of its template: they are in the file, even if the viewer does
+// not run.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace vkh {
 
-/// Title, files, verdict, warnings and the facts beside them: what stands above all else.
+/// The head of the page: title, files, verdict, warnings and the facts beside them.
 Json head_view(const Answer& answer, const std::string& title);
 
 /// The part of a page about one direction.

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostFigureDigits = 4;
 constexpr int kAllDigits = 17;
 
-// A deviation that is within the limit may be written as the limit itself, one beyond it may not.
+// A deviation within the limit may be written as the limit itself; one beyond it must not.
 bool is_on_its_side(double printed, double exact, const Limit& limit) {
   if (!(limit.beyond > 0)) return true;
   if (exact > limit.beyond) return printed > limit.beyond;
@@ -156,7 +156,7 @@ void add_search_end(const Answer& answer, const Report& r, bool back,
   warnings.push_back(is_decided ? "The verdict is proven; " + what : "Unfinished: " + what);
 }
 
-// One sentence for both directions where both ended for one reason.
+// Adds one sentence for both directions if both ended for the same reason.
 void add_survey_ends(const Answer& answer, std::vector<std::string>& warnings) {
   const auto reason_of = [](const std::optional<SurveyResult>& survey) {
     return survey ? end_words(survey->ended).on_page : nullptr;
@@ -173,7 +173,7 @@ void add_survey_ends(const Answer& answer, std::vector<std::string>& warnings) {
   add("B", b);
 }
 
-// The page says outward and inward where others say over and under.
+// A page says outward and inward instead of over and under.
 std::string inside_out_warning(const Note& note) {
   const std::string which = note.text.substr(0, note.text.find(','));
   return "Check the two files: " + which + ", so that outward means into it, and inward out of it.";

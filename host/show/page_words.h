@@ -1,5 +1,5 @@
-// The figures and sentences of a page, in the words of quality control. Each figure of a page is
-// written by one of these, so that it reads the same wherever it stands.
+// The figures and sentences of a page, in the words of quality control. One of these functions
+// writes each figure, so that it reads the same everywhere.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,9 @@
 
 namespace vkh {
 
-/// Writes an enclosed length: "0.352" where both ends are that in three digits or four, rounded to
+/// Writes an enclosed length: "0.352" if both ends have the same three or four digits, rounded to
 /// nearest; otherwise "0.0084 to 0.0111", rounded outward; "at least 0.3", "at most 0.2" or "not
-/// known" where an end is not known. No figure is written on the other side of `limit` than it is;
-/// 0: there is no limit.
+/// known" if an end is unknown. No figure is rounded across `limit`; 0: there is no limit.
 std::string figure_text(const Enclosure& length, const Limit& limit = {});
 /// The same with the answer's unit, and its limit.
 std::string length_text(const Answer& answer, const Enclosure& length);
@@ -24,7 +23,7 @@ std::string length_text(const Answer& answer, const Enclosure& length);
 std::string estimate_text(double length, const Enclosure& ends, const Limit& limit = {});
 
 /// Writes a share in percent, with two decimals, rounded outward: "98.87 to 98.90 %". 0 % and 100 %
-/// are exact. With more decimals where that would be on the other side of `asked`, in [0, 1].
+/// are exact. Uses more decimals if rounding would cross `asked`, in [0, 1].
 std::string share_text(const Enclosure& share, double asked = -1);
 
 /// A point in a file's coordinates, to a hundred-thousandth of `size`: "(29.86, 12.005, 9.648)".
@@ -50,7 +49,7 @@ Headline headline_of(const Answer& answer);
 /// that was cut short.
 std::vector<std::string> warnings_of(const Answer& answer);
 
-/// "mm, by --unit": the unit of all lengths, and who says so.
+/// The unit of all lengths, and where it comes from: "mm, by --unit".
 std::string unit_text(const Answer& answer);
 
 }  // namespace vkh

@@ -19,7 +19,7 @@ struct Palette {
   std::array<Rgb, kOutside> below{}, above{};
   std::array<Rgb, kWithin> within{};
 
-  /// `share`: in [0, 1]. A limit itself is within.
+  /// `share`: in [0, 1]. The limit itself counts as within.
   Rgb colour(double share) const {
     if (bands > 0) share = (std::min(std::floor(share * bands), bands - 1.0) + 0.5) / bands;
     if (share < from) return between(below, share / from);

@@ -65,8 +65,8 @@ struct Plane {
   }
 };
 
-/// Where samples lie on one side of a line, by integers: a sample on an edge that two faces share
-/// is of one of them.
+/// Finds the samples on one side of a line, by integers: a sample on an edge that two faces share
+/// belongs to one of them.
 struct Edge {
   int64_t at_origin, by_x, by_y;
 
@@ -199,7 +199,8 @@ class Raster {
     }
   }
 
-  /// A tile's faces lie anywhere in memory, and waiting for it took a third of the time.
+  /// Prefetches, since a tile's faces are scattered in memory, and waiting for it took a third of
+  /// the time.
   void fetch(size_t face) const {
     prefetch_to_read(&corners_[3 * face]);
     prefetch_to_read(&corners_[3 * face + 2].pad);
@@ -210,7 +211,7 @@ class Raster {
     std::array<size_t, 3> order;  ///< of the corners, so that the area is positive
     double area;                  ///< twice
     std::array<Edge, 3> edges;
-    std::array<Plane, 2> weights;  ///< of the second and the third corner; of discs alone
+    std::array<Plane, 2> weights;  ///< of the second and the third corner; only for discs
     Plane depth, share;
     int y0, y1;
   };

@@ -10,7 +10,7 @@
 
 namespace vkh::drawing {
 
-/// The stripes of what is not resolved, and their share of a period.
+/// The colour of the stripes of unresolved cells, and their share of a period.
 inline constexpr Rgb kStripe{74, 64, 51};
 inline constexpr double kStripeShare = 0.42;
 
@@ -19,7 +19,7 @@ struct Corner {
   float x = 0, y = 0;      ///< pixels of the layer, from its upper left corner
   float z = 0;             ///< from the nearest, 0, to the farthest, 1
   float share = 0;         ///< of the bar, with `by_share`
-  uint8_t colour[4] = {};  ///< of which three are taken; by share the first is the light
+  uint8_t colour[4] = {};  ///< three are used; with `by_share` the first is the light
   uint8_t hatched = 0, by_share = 0;
   uint8_t is_disc = 0;  ///< the circle inscribed in the face is drawn
   uint8_t pad = 0;
@@ -34,7 +34,7 @@ struct Corner {
   }
 };
 
-/// Writes the corners of `face_count` faces; one that is not to be seen has three times the same.
+/// Writes the corners of `face_count` faces; an invisible face has three equal corners.
 using FillFaces = std::function<void(size_t first_face, size_t face_count, Corner* corners)>;
 
 /// Calls writer(face, its three corners) for each face, on several threads.
@@ -61,7 +61,7 @@ struct RasterOptions {
 };
 
 /// Draws `face_count` faces, the nearest in front, with several samples a side of a pixel. Throws
-/// std::bad_alloc where there is no memory for it.
+/// std::bad_alloc if there is not enough memory.
 Layer rasterized(const RasterOptions& options, size_t face_count, const FillFaces& fill);
 
 }  // namespace vkh::drawing

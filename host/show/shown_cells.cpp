@@ -16,7 +16,7 @@ namespace {
 
 using drawing::MapScale;
 
-constexpr double kColours = 400;       // steps of the bar that nobody tells apart
+constexpr double kColours = 400;       // more steps of the bar than people can tell apart
 constexpr double kRounding = 0x1p-40;  // more than the sums of a width lose
 
 lib::Bary3 corners_at(const std::array<uint32_t, 4>& words) {
@@ -73,10 +73,11 @@ class Halving {
 struct Node {
   ShownCell cell;
   double area = 0, unresolved = 0;  // shares of the mesh's
-  double cost = 0;                  // of showing it as one, or of halves of it if that is more
+  double cost =
+      0;  // of showing it as one cell, or of showing its halves as one each, whichever is more
 };
 
-/// The halvings of faces: what each would cost to undo, and the cells that are left then.
+/// The halvings of faces, with the cost of undoing each, and the cells that are then left.
 class Halvings {
  public:
   Halvings(const CellMap& map, const MapScale& scale)
@@ -93,7 +94,7 @@ class Halvings {
   /// The costs of all halvings.
   const std::vector<double>& costs() const { return costs_; }
 
-  /// Adds the cells that are left where all halvings of up to `most_cost` are undone.
+  /// Adds the cells that are left if all halvings that cost up to `most_cost` are undone.
   void add_left(double most_cost, std::vector<ShownCell>& left) const {
     Walk walk{.most_cost = most_cost, .left = left};
     for (size_t face = 0; face < faces_; ++face) {
@@ -248,7 +249,7 @@ std::vector<Halvings> halvings_of(const Mesh& mesh, const CellMap& map, const Ma
   return lots;
 }
 
-/// The cost of the last halving that has to be undone for so many cells to be left.
+/// The cost of the last halving to undo, if the `undo` cheapest ones are undone.
 double cost_for(std::vector<double> costs, size_t undo) {
   if (undo == 0 || costs.empty()) return 0;
   const size_t at = std::min(undo, costs.size()) - 1;
@@ -292,7 +293,7 @@ std::vector<ShownCell> shown_cells(const Mesh& mesh, const CellMap& map, const M
 
 namespace {
 
-// A map of whole faces; value(face) is {what is shown, its width}.
+// A map of whole faces; value(face) returns {the shown distance, its width}.
 template <class Value>
 CellMap map_of_faces(const Mesh& mesh, const Value& value) {
   CellMap map;

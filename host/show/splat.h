@@ -9,7 +9,7 @@ namespace vkh::drawing {
 /// corner's colours.
 void put_disc(const Camera& camera, const glm::dvec3& pixel, const Corner& look, Corner* corners);
 
-/// The light on a point, which has no normal: what is farther from the viewer is darker.
+/// The light on a point, which has no normal: points farther from the viewer are darker.
 double light_at(const Camera& camera, double depth);
 
 }  // namespace vkh::drawing

@@ -94,8 +94,8 @@ void add_face(const FieldFile& file, size_t f, const glm::dvec3& middle, double 
   }
 }
 
-// Turns coordinates into metres by a node's scale, which keeps their bits, where the unit is known.
-// glTF has y up, which no mesh's file names: axes stay.
+// If the unit is known, turns coordinates into metres by a node's scale, which keeps their bits. In
+// glTF y is up, but a mesh's file does not say which axis is: axes stay.
 Json nodes_of(const FieldFile& file, const glm::dvec3& middle) {
   const Json mesh = {{"mesh", 0}, {"translation", {middle.x, middle.y, middle.z}}};
   if (file.unit.empty() || file.unit == "m") return Json::array({mesh});

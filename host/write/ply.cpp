@@ -14,7 +14,7 @@ void add_colour(const Rgb& colour, Bytes& out) {
   out.add(colour.blue);
 }
 
-// Makes it one line, whatever a file's name holds.
+// Removes line ends, which a file's name may hold.
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
@@ -62,7 +62,7 @@ float float_away(double x) { return x < 0 ? float_down(x) : float_up(x); }
 
 double farther(double x, double y) { return std::abs(y) > std::abs(x) ? y : x; }
 
-// Viewers that read no faces' figures draw these of vertices.
+// The figures of vertices are for viewers that read none of faces.
 std::vector<double> signed_of_vertices(const FieldFile& file) {
   std::vector<double> at(file.mesh.vertices.size(), 0.0);
   if (file.sides == nullptr) return at;

@@ -11,7 +11,7 @@
 
 namespace vkh {
 
-/// Throws UsageError where a field has not one value for each face.
+/// Throws UsageError unless a field has one value for each face.
 inline void check_sizes(const FieldFile& file) {
   const size_t faces = file.mesh.faces.size();
   const auto check = [&](const Field& field) {

@@ -28,7 +28,7 @@ def gate(a, b, max, **options):
     waves or memory ended. The run ends as soon as either is proven. area: the share of A's area that is to be within max,
     such as 0.995 or '99.5%', instead of all of it; in a symmetric run of B's, too. With field, each face is to be proven
     within max or beyond, too. worst: after the verdict, go on to the farthest point, to a thousandth of its distance or for
-    60 waves; without it the witness of 'fail' is beyond max, and no more is known. The rest is as in distance().
+    60 waves; without it, the witness of 'fail' is only known to be beyond max. The rest is as in distance().
     """
     return _core.gate(a, b, max, **options)
 

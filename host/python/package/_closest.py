@@ -15,8 +15,8 @@ class Closest(Record):
     """The points of a mesh that are closest to given points, by their rows: each distance lies in [lower, upper].
 
     lower, upper: float64 arrays of shape (n,), in the coordinates' unit, rounded outward. points: (n, 3), float64, each a
-    point of the mesh but for rounding to float64, whose distance lies in [lower, upper], too. faces: (n,), uint32, the rows
-    of the mesh's faces that they lie on. All are read-only. It unpacks as distances, points, faces; distances are upper.
+    point of the mesh, rounded to float64, whose distance lies in [lower, upper], too. faces: (n,), uint32, the rows of the
+    mesh's faces that they lie on. All are read-only. It unpacks as distances, points, faces; distances are upper.
     """
 
     lower: npt.NDArray[np.float64]

@@ -14,15 +14,16 @@ def distances(pairs, *, on_progress=None, **options):
     each device, and answers are those of Solver(b).distance(a); otherwise they are those of distance(a, b).
 
     A result has index, the pair's place in pairs, from 0, and id, or None. A pair that fails (a bad file, a wrong array)
-    ends nothing: its result has error, the exception, and whatever else is asked of it raises that. Otherwise error is None.
-    max: the limit of gate(), a number in the coordinates' unit or a string such as '0.1%' of A's diagonal; results then
-    have verdict, and tol is 1e-7, otherwise 1e-6. tol, symmetric, memory, waves, disable, enable and preset are those of
-    distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
+    does not end the others: its result has error, the exception, and every other member raises that. Otherwise error is
+    None. max: the limit of gate(), a number in the coordinates' unit or a string such as '0.1%' of A's diagonal; results
+    then have verdict, and tol is 1e-7, otherwise 1e-6. tol, symmetric, memory, waves, disable, enable and preset are those
+    of distance(), time is the seconds that each pair may take. device: as distance() has it, or several between commas such
     as '0,1', or 'all', every GPU. together: pairs in one submission; lanes: submissions at once on a device; None for what
     pays there. max_input, polygons and bodies are those of read(); field, statistics, signed, bands, effort, survey_time,
     unit_a, unit_b, transform, scale, align, max_distance and points those of distance(), for each pair.
-    on_progress(fraction, lower, upper) is called as each pair ends, on the thread of next(): the share of pairs that have ended, which comes to 1, and the interval of the
-    largest distance among them. Where pairs has no len(), the share is 0 until the last pair is taken. Return False to end.
+    on_progress(fraction, lower, upper) is called as each pair ends, on the thread of next(): the share of pairs that have
+    ended, which comes to 1, and the interval of the largest distance among them. Where pairs has no len(), the share is 0
+    until the last pair is taken. Return False to end.
 
     Pairs are taken from the iterable by next(), on its thread, ahead of results: at most `ahead` that have no result yet or
     one that was not asked for. That is 2 * lanes * together of a GPU (96) a device if None. No pair is taken while meshes

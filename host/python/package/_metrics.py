@@ -17,8 +17,8 @@ class Metrics:
     percentile: of hd_p and hd_p_pooled, which are also called by it: hd95, hd95_pooled. nsd, precision, recall and f1 are
     {distance as it was given: Interval} of shares, from 0 to 1, for each of bands. With normals=, normal_consistency is an
     Interval, and precision_normals, recall_normals and f1_normals are of area whose normals agree, too; otherwise they are
-    None and empty. met: whether all that are asked for are as narrow as they are to be; unmet: the names of those that are
-    not. result: the Result of both directions that they were made of; None where a mask is empty.
+    None and empty. met: whether all requested figures are as narrow as asked; unmet: the names of the ones that are not.
+    result: the Result of both directions from which they were made; None if a mask is empty.
     """
 
     percentile: float
@@ -128,9 +128,10 @@ def metrics(a, b, *, spacing=None, affine=None, empty="error", **options):
     the coordinates' unit, or strings such as '0.5%' of A's diagonal: the shares of area within each are nsd (of both),
     precision (of A), recall (of B) and f1. spacing: of masks, the sizes of a voxel, 1 by default; or affine: four rows that
     map the number of a voxel's middle to space, as NIfTI's. figures: names such as 'f1' or 'hd95' that alone are sought,
-    which takes less time; all by default. normals: degrees, for figures of normals that agree to so many.
-    empty: of masks, 'error', or 'inf': if one is empty, lengths are inf, shares 0 and those of the empty one nan; of two that
-    are empty all is nan. The rest is as in distance(). Returns Metrics. ValueError if a surface has no area.
+    which takes less time; all by default. normals: an angle in degrees within which normals agree, for
+    figures of normals. empty: of masks, 'error', or 'inf': if one is empty, lengths are inf, shares 0 and
+    those of the empty one nan; of two that are empty all is nan. The rest is as in distance(). Returns
+    Metrics. ValueError if a surface has no area.
     """
     if empty not in ("error", "inf"):
         raise ValueError(f"empty: expected 'error' or 'inf', not {empty!r}")

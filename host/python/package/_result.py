@@ -121,7 +121,7 @@ class Result:
     index: int | None = _Part("of distances(): the pair's place in the iterable, from 0; else None", of_failed=True)
     id: Any = _Part("of distances(): what the pair was called, as it was given; else None", of_failed=True)
     error: Exception | None = _Part(
-        "of distances(): the exception that the pair ended with, else None. Where it is one, whatever else is asked of the result "
+        "of distances(): the exception that the pair ended with, else None. If there is one, every other member of the result "
         "raises it", of_failed=True)
 
     def __init__(self):
@@ -229,7 +229,7 @@ class Result:
         return f"<vkhausdorff.Result {f'[{lower}, {upper}]' if self._is_upper_sought() else f'at least {lower}'} {self.status}>"
 
     def _proven(self):
-        """What is proven of the pair, whatever it cost."""
+        """What is proven of the pair, without its cost."""
         return self._whole()[: _Parts._fields.index("stats")]
 
     def __eq__(self, other):

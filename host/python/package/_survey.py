@@ -13,7 +13,7 @@ from vkhausdorff import _core
 
 
 def html_table(row):
-    """A row of figures by their names as a table, for notebooks; without those that have no value."""
+    """A row of figures by their names as a table, for notebooks; without figures that have no value."""
     cells = "".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in row.items()
                     if value not in (None, ""))
     return f"<table>{cells}</table>"
