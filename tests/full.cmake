@@ -3,7 +3,7 @@
 # measured). Those labelled "nightly" are for `ninja nightly`, and in the sanitizer tree for
 # `ninja -C out/asan vkh_nightly && ctest --test-dir out/asan -L nightly`.
 
-# vkh_label(LABEL TEST...): labels those that there are; the last call decides.
+# vkh_label(LABEL TEST...): labels the tests that exist; the last call decides.
 function(vkh_label label)
   foreach(test IN LISTS ARGN)
     if(TEST ${test})

@@ -1,6 +1,6 @@
 # The folder of each test, as a label: `ctest -L unit`. What only reads the sources is labelled lint.
 
-# vkh_folder(FOLDER TEST...): labels those that there are.
+# vkh_folder(FOLDER TEST...): labels the tests that exist.
 function(vkh_folder folder)
   foreach(test IN LISTS ARGN)
     if(TEST ${test})

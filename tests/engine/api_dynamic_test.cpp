@@ -1,5 +1,5 @@
-// Meshes that move: refitted BVHs and warm starts. Each frame's interval is true, whatever data the
-// frame before left.
+// Meshes that move: refitted BVHs and warm starts. Each frame's interval is true, with any data
+// that the frame before left.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// A caller that breaks a rule of the header is told its name: by a build with asserts, and in any
-// build by a context that checks calls.
+// A caller that breaks a rule of the header learns its name: by an assert, or in any build by a
+// context that checks calls.
 #include <doctest/doctest.h>
 #include <sys/wait.h>
 #include <unistd.h>

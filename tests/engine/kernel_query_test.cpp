@@ -99,7 +99,7 @@ void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu:
   CHECK_MESSAGE(there - least <= allowed(least), "a triangle at " << there << ", not " << least);
   if (two_float) {
     // The distance to the triangle found is then taken anew from 48 bits: rounded up, or next to
-    // the surface bounded from below, to 48 bits of coordinates but for needles and the like.
+    // the surface bounded from below, to 48 bits of coordinates, except for needles and the like.
     CHECK_MESSAGE(found >= (there > 1e-4 ? there - 1e-13 : 0.0), found << " for " << there);
     // A foot that is off sideways by rounding costs little, but next to the surface; 3.5e-6 was
     // seen on a sliver.
@@ -111,7 +111,7 @@ void check_nearest(const glm::dvec3& p, const Mesh& mesh, const std::vector<gpu:
 
 // --- a wave's queries ---
 
-constexpr uint32_t kSkipped = 5;  // every so many-th point is not to be queried
+constexpr uint32_t kSkipped = 5;  // every kSkipped-th point is not queried
 
 struct Query {
   std::vector<gpu::Point> before, after;

@@ -1,5 +1,5 @@
-// Budgets: memory, waves, time, the caller's patience, switches. Whatever ends a run, its interval
-// is true.
+// Budgets: memory, waves, time, the caller's patience, switches. The interval is true no matter
+// what ends a run.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -231,7 +231,7 @@ TEST_CASE("a compact workspace bounds all faces of A at once, and gives the same
 
 namespace {
 
-// Runs a pair on the GPU profile in so many bytes of its workspace.
+// Runs a pair on the GPU profile in `bytes` bytes of its workspace.
 VkhReport run_in(ApiPair& pair, VkDeviceSize bytes) {
   pair.problem().workspace.size = bytes;
   return pair.run([&](VkCommandBuffer commands) {

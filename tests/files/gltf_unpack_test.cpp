@@ -140,7 +140,7 @@ TEST_CASE("the extension as Khronos ratified it is read, too; unknown codecs are
   khr.json["extensionsRequired"] = {"KHR_meshopt_compression"};
   CHECK(parse(khr).vertices == parse(ext).vertices);
   CHECK(parse(khr).faces == parse(ext).faces);
-  // The first byte has the codec's version in its lower half; the highest is nobody's.
+  // The first byte has the codec's version in its lower half; the highest version is unused.
   Document later = khr;
   later.binary[0] = static_cast<char>(0xaf);
   check_refused(later, "its meshopt compression cannot be undone");

@@ -462,7 +462,7 @@ TEST_CASE("formats that are not read are named, with what to do") {
     CHECK((advice != std::string::npos) == are_points);
     CHECK(error_of(file.bytes, file.name, true).find(file.says) != std::string::npos);
   }
-  // Content that reads as a mesh is one, whatever the file's name.
+  // Content that reads as a mesh is one, under any file name.
   const Sample sample = random_strip(6, 9, true);
   check_same(parse(obj(sample.vertices, sample.faces), "a.asc"), sample);
   check_same(parse(binary_ply<float>(sample.vertices, sample.faces, false), "a.step"), sample);

@@ -136,7 +136,7 @@ namespace {
 
 /// What stands behind the records of a LAS file.
 enum class Behind { kNothing, kLitter, kRecord, kWaveforms, kExtended };
-/// What the header counts, for so many records.
+/// The header's count, compared with the number of records.
 enum class Counts { kRight, kFewer, kMore, kNone };
 
 /// One way to write four points.

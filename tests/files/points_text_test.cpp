@@ -216,7 +216,7 @@ Words refusal_of(const Way& way) {
   return {};
 }
 
-// Rows of another order without names tell nothing, but for points' numbers.
+// Rows in another order without names cannot be recognised, unless they have points' numbers.
 bool is_way(const Way& way) {
   const bool tells = way.is_named() || is_plain(*way.order) || (*way.order)[0] == "id";
   const bool has_room = !way.naming->needs_cells || way.has_cells();

@@ -13,7 +13,7 @@ import urllib.parse
 
 from random_mesh import TURNS, affine, compose, moved, random_triangles
 
-# Name files beneath a document; whatever a name has, its URI escapes it or leaves it as it is.
+# Name files beneath a document; the URI of each escapes its characters or leaves them.
 NAMES = ["data.bin", "a b.bin", "Gehäuse.bin", "part 10%.bin", "50%25.bin", "a%20b.bin", "%41.bin", "日本.bin", "😀.bin",
          "it's (1).bin", "a+b&c=d.bin", "in side/x.bin", "deep/er/ü.bin", '"quoted".bin', "tab %09.bin"]
 QUATERNIONS = [(0, 0, 0, 1), (0, 0, math.sqrt(0.5), math.sqrt(0.5)), (math.sqrt(0.5), 0, 0, math.sqrt(0.5)), (0, 0, 1, 0)]

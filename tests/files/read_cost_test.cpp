@@ -1,5 +1,5 @@
 // The cost of reading a file: memory within a fixed multiple of the larger of file and mesh, time
-// in proportion, whatever the file. Every allocation of this program is counted.
+// in proportion, for any file. Every allocation of this program is counted.
 #include <doctest/doctest.h>
 
 #include <algorithm>

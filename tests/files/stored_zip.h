@@ -17,7 +17,7 @@ inline uint32_t crc32_of(const std::string& bytes) {
   return ~crc;
 }
 
-/// Little-endian, of so many bytes.
+/// Little-endian, of `bytes` bytes.
 inline std::string little(uint64_t x, int bytes) {
   std::string out;
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(x >> (8 * i) & 0xff);

@@ -248,7 +248,7 @@ TEST_CASE("--bodies all measures what is no body, as it lies, and counts it by n
       two + object_of("3", components(component("2") + component("1")), "type=\"solidsupport\"");
   CHECK(lines_of(all_of(package_of(model_of(three, item("3")))).notes) ==
         std::vector<std::string>{kIncluded + "1 support object (2 faces)"});
-  // A shape that is not read is refused, whatever it is for.
+  // A shape that is not read is refused for any purpose.
   const std::string voxels = object_of("2", "<x:voxels xmlns:x=\"urn:x\"/>", "type=\"support\"");
   const std::string package = package_of(model_of(kOne + voxels, item("1") + item("2")));
   CHECK(parse(package).faces.size() == 1);

@@ -19,7 +19,7 @@ inline std::string times(const std::string& text, size_t count) {
   return all;
 }
 
-/// A triangle, and before it a list of that name, of so many entries.
+/// A triangle, and before it a list of that name with `size` entries.
 inline std::string with_list(const std::string& name, const std::string& entry, size_t size) {
   const std::string text = triangle_document().text();
   return "{\"" + name + "\":[" + times(entry + ",", size / (entry.size() + 1)) + entry + "]," +

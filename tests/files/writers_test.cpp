@@ -635,7 +635,7 @@ std::string gltf_bytes(const Texts& t) {
   return document.glb() + t["behind"];
 }
 
-/// By the registry: those that leave the triangles where they are, and some that do not.
+/// By the registry: extensions that leave the triangles where they are, and some that do not.
 Place required_extensions() {
   Place place = {"required", {{""}}};
   for (const char* known :

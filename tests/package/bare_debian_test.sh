@@ -57,7 +57,7 @@ copy_sources() {
   git -C "$source" archive HEAD | tar -x -C "$1/vkhausdorff"
 }
 
-# The packages on a Debian where no other file of this repository is, but for the two programs' sources.
+# The packages on a Debian that has no other file of this repository, except the two programs' sources.
 use_packages() {
   local root=$1
   "$source/tools/release" --to "$folder/release" --tree "$build" deb >"$folder/release.log" 2>&1 || { cat "$folder/release.log" >&2; fail "tools/release deb"; }

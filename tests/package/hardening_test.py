@@ -2,7 +2,7 @@
 """The shipped files are hardened: reads ELF files with readelf.
 
 usage: hardening_test.py COMPILER MEASURES FILE...
-MEASURES: those that the build found possible (cmake/Hardening.cmake), separated by commas.
+MEASURES: the ones that the build found possible (cmake/Hardening.cmake), separated by commas.
 Exits with 77 where there is no readelf, or the files are no ELF files.
 """
 

@@ -1,5 +1,5 @@
 // The page in a browser: browser.mjs CHROMIUM FOLDER NAME MODE, one JSON object of what was seen.
-// MODE: view, still (no slider is moved), picture (no WebGL), or index (of a batch). The network is cut off, and whatever asks for it is counted.
+// MODE: view, still (no slider is moved), picture (no WebGL), or index (of a batch). The network is cut off, and every request is counted.
 import puppeteer from 'puppeteer-core';
 import { createHash } from 'node:crypto';
 import { pathToFileURL } from 'node:url';

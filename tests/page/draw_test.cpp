@@ -1,4 +1,4 @@
-// Pictures of small meshes: their visible contents, whatever the driver.
+// Pictures of small meshes: their visible contents, for any driver.
 #include "host/show/draw.h"
 
 #include <doctest/doctest.h>

@@ -222,7 +222,7 @@ class SwiftShader(Driver):
 
 
 class Lavapipe(Driver):
-    """lavapipe with vectors of so many bits, whatever the processor has: subgroups of 4, 8 or 16."""
+    """lavapipe with vectors of a given number of bits, on any processor: subgroups of 4, 8 or 16."""
 
     def __init__(self, bits: int, source: pathlib.Path, build: pathlib.Path):
         super().__init__(f"lavapipe{bits}", source, build)

@@ -79,7 +79,7 @@ FORMATS = (("obj", as_obj), ("ply", as_ply), ("stl", as_stl), ("off", as_off))
 
 
 def write(folder: pathlib.Path, count: int = 10) -> list[tuple[str, str]]:
-    """The names of A and B of so many pairs, from `folder`."""
+    """The names of A and B of `count` pairs, from `folder`."""
     (folder / FOLDER).mkdir(parents=True, exist_ok=True)
     pairs = []
     for i in range(count):

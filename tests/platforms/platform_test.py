@@ -79,7 +79,7 @@ class Run:
         return subprocess.run([self.native, *arguments], cwd=folder, capture_output=True, timeout=300)
 
     def same(self, *arguments: str, folder: pathlib.Path) -> dict:
-        """One command on both platforms: the same exit code and, but for the times, the same answer."""
+        """One command on both platforms: the same exit code and, except for times, the same answer."""
         there = self.platform.run("vkhausdorff", *arguments, "--json", folder=folder)
         here = self.here(*arguments, "--json", folder=folder)
         expect(here.returncode == there.returncode and here.returncode in (0, 3), told(there))

@@ -34,7 +34,7 @@ enum class Shape {
   kGrid,       ///< corners on a coarse grid: right angles, equal edges, ties
   kFewUlps,    ///< corners a few ulps apart
   kLowParts,   ///< high parts equal or an ulp apart; the low parts make the shape
-  kCollinear,  ///< exactly or but for rounding
+  kCollinear,  ///< exactly, or up to rounding
   kSegment,    ///< two corners coincide
   kPoint,      ///< all three do
   kCount

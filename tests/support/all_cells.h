@@ -24,7 +24,7 @@ inline bool split_all(SurveyCells& cells) {
   return true;
 }
 
-/// Makes cells of A's faces, and splits them until there are at least so many; returns all of them.
+/// Makes cells of A's faces, and splits them until there are `at_least`; returns all of them.
 inline CellRange make_cells(const SurveyedPair& pair, size_t at_least) {
   SurveyCells& cells = *pair.cells;
   const double farthest = pair.frame.to_frame(pair.farthest) + pair.displacement;

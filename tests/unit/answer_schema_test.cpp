@@ -14,7 +14,7 @@ namespace {
 using namespace vkh;
 using Paths = std::set<std::string>;
 
-/// A visitor that collects the path of each member, as if every one were there, but for `absent`.
+/// A visitor that collects the path of each member, as if every one were there, except `absent`.
 class PathVisitor {
  public:
   static constexpr bool kReads = true;

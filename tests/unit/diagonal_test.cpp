@@ -1,5 +1,5 @@
-// A's diagonal and its shares against exact arithmetic: whatever A's exact corners are within its
-// delta, the limit is enclosed.
+// A's diagonal and its shares against exact arithmetic: the limit is enclosed for all exact corners
+// of A within its delta.
 #include <doctest/doctest.h>
 #include <gmpxx.h>
 

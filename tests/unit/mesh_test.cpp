@@ -26,7 +26,7 @@ uint64_t degenerate(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& 
   return vkh::make_mesh("m", {a, b, c}, {{0, 1, 2}}).counts.degenerate;
 }
 
-/// The face's number for each triangle, one by one, if faces have so many triangles.
+/// The face's number for each triangle, one by one, if faces have these numbers of triangles.
 std::vector<uint32_t> numbered(const std::vector<uint32_t>& triangles_of_faces) {
   std::vector<uint32_t> numbers;
   for (uint32_t face = 0; face < triangles_of_faces.size(); ++face)

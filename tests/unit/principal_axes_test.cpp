@@ -1,4 +1,4 @@
-// A surface's principal axes against closed forms, and whatever its triangles are.
+// A surface's principal axes against closed forms, for different triangles of it.
 #include "host/mesh/principal_axes.h"
 
 #include <doctest/doctest.h>

@@ -70,7 +70,8 @@ Enclosure negative(const Enclosure& e) {
   return out;
 }
 
-/// Whether the text is in the interval. A double of many digits is told by those that name it.
+/// Whether the text is in the interval. A double of many digits may be given by enough digits to
+/// name it.
 bool is_inside(const std::string& text, const Enclosure& e) {
   const Q value = decimal_value(text);
   if (value >= Q(e.lower) && value <= Q(e.upper)) return true;

@@ -1,4 +1,4 @@
-"""Triangulations of polygons in certificates: both checkers accept those that tile the outline, and no others.
+"""Triangulations of polygons in certificates: both checkers accept exactly the ones that tile the outline.
 
 usage: polygons_test.py [--cases N] [--seed S] [unittest's own]
 VKH_CHECK is the program; without it vkh_check.py alone is asked. What is so is found in another way than by the checkers:
@@ -95,7 +95,7 @@ def clipped(ring, rng):
 
 
 def by_chance(ring, rng):
-    """A triangulation whose edges add up, whatever it covers."""
+    """A triangulation whose edges add up, but which may cover anything."""
     left, out = list(range(len(ring))), []
     while len(left) > 3:
         n = rng.randrange(len(left))

@@ -5,7 +5,7 @@ import itertools
 import math
 from fractions import Fraction
 
-SPARE = 120  # bits: so many halvings, cuts and parts of witnesses stay integers
+SPARE = 120  # bits: with these, halvings, cuts and parts of witnesses stay integers
 
 
 def scaled(*meshes):

@@ -173,7 +173,7 @@ TEST_CASE("two pairs at once, and both ways") {
   try_kept("together", work, Places::kEnds);
 }
 
-// After the fault the solver is destroyed at once, whatever the device may still be doing.
+// After the fault the solver is destroyed at once, even if the device is still busy.
 TEST_CASE("a device that is lost stays lost, and goes away") {
   for (const std::string fault :
        {"vkQueueSubmit:1:VK_ERROR_DEVICE_LOST", "vkWaitForFences:2:VK_ERROR_DEVICE_LOST",

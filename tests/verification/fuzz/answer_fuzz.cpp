@@ -1,6 +1,6 @@
-// Fuzzes the readers of answers and of result lines: whatever the JSON, it is refused with one line
-// that says why, or read as an answer whose JSON is read back byte for byte. An input chooses one
-// of the known kinds of answers and changes of its members, or is the text itself.
+// Fuzzes the readers of answers and of result lines: any JSON is refused with one line that says
+// why, or read as an answer whose JSON is read back byte for byte. An input chooses one of the
+// known kinds of answers and changes of its members, or is the text itself.
 #include <cstdio>
 #include <cstdlib>
 #include <iterator>

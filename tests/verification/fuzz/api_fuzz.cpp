@@ -1,5 +1,5 @@
-// Fuzzes the C API with small pairs of meshes: whatever they are, a run ends, its reports nest, and
-// the interval meets that of the tests' own solver. tools/fuzz runs it, on lavapipe unless
+// Fuzzes the C API with small pairs of meshes: for any meshes a run ends, its reports nest, and the
+// interval meets that of the tests' own solver. tools/fuzz runs it, on lavapipe unless
 // VKH_TEST_DEVICE names another device.
 #include <algorithm>
 #include <array>
@@ -73,8 +73,8 @@ void check_true(const VkhReport& report, const FuzzPair& pair, const Interval& e
   require(report.witnessFaceB < pair.b.face_count(), "its partner is on a face of B");
 }
 
-/// Reports of one run nest, but for rounding: of a sample's place and its closest point's in single
-/// floats, and of numbers under 2^-48.
+/// Reports of one run nest, except for rounding: of a sample's place and its closest point's in
+/// single floats, and of numbers under 2^-48.
 void check_nested(const VkhReport& before, const VkhReport& after, const FuzzPair& pair,
                   const Interval& exact) {
   const double slack = 1e-5 * double{after.upper} + 0x1p-21 * pair.largest + 0x1p-44;
@@ -271,7 +271,7 @@ class Run {
     }
   }
 
-  /// Whatever the coordinates, a run ends.
+  /// A run ends for any coordinates.
   void finish() {
     for (uint32_t turn = 0; turn < kMostTurns; ++turn) {
       std::vector<VkhTask> going;

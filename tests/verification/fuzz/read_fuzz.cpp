@@ -1,4 +1,4 @@
-// Fuzzes a reader: whatever the bytes, it gives a valid mesh or one line that names the error, in
+// Fuzzes a reader: for any bytes it gives a valid mesh or one line that names the error, in
 // six times the memory of the larger of file and mesh. --reader=NAME selects the reader; tools/fuzz
 // runs it.
 #include <algorithm>

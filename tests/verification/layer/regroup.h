@@ -1,4 +1,4 @@
-// Changes a shader like a driver that regroups sums, whatever is decorated.
+// Changes a shader like a driver that regroups sums, even decorated ones.
 #pragma once
 
 #include <cstdint>

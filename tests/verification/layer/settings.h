@@ -12,8 +12,8 @@
 
 namespace vkh::layer {
 
-/// Fails the `n`-th call of `function` ("*": of those that may return `result`), and all after it
-/// if `onwards`.
+/// Fails the `n`-th call of `function` ("*": of all functions that may return `result`), and all
+/// after it if `onwards`.
 struct Fault {
   std::string function;
   uint64_t n = 1;

@@ -80,7 +80,8 @@ struct Whim {
 };
 inline Whim whim;
 
-/// The decorated operations: all, as in the build, or those that are `precise` in the headers.
+/// The decorated operations: all, as in the build, or only the ones that are `precise` in the
+/// headers.
 enum class Decorations { kAll, kPrecise };
 inline Decorations decorations = Decorations::kAll;
 inline int precise_blocks = 0;
@@ -113,7 +114,7 @@ inline float to_one_side(double value, double error) {
   return flushed(near);
 }
 
-/// A float within so many ulp of value, the farthest but for kAny and kNearest.
+/// A float within `ulps` ulp of value: the farthest, except for kAny and kNearest.
 inline float within(double value, double ulps) {
   float out = static_cast<float>(value);
   if (whim.direction == Direction::kNearest || value == 0.0 || !std::isfinite(out)) return out;

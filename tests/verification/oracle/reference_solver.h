@@ -24,7 +24,7 @@ struct ReferenceStats {
   uint32_t waves = 0;       ///< generations of subdivision
 };
 
-/// Encloses h(A, B). The interval holds whatever stopped the search; its width is at most
+/// Encloses h(A, B). The interval holds no matter what stopped the search; its width is at most
 /// absolute_tolerance plus 2 * 64 * 2^-53 * the joint diagonal (the rounding margin) unless
 /// max_candidates were bounded first.
 Interval reference_hausdorff(const Mesh& a, const Mesh& b, double absolute_tolerance,

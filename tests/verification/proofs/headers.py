@@ -1,6 +1,6 @@
 """The parts of the headers of shaders/math that the proofs use: constants, quoted lines, functions.
 
-A quotation is a piece of a header as it stands, but for white space. `{name}` in it stands for a number or a constant's
+A quotation is a piece of a header as it stands, except for white space. `{name}` in it stands for a number or a constant's
 name there, and takes its value, as the float that it is.
 """
 
@@ -75,7 +75,7 @@ class Headers:
         return values
 
     def function(self, name, arguments=None):
-        """Parameters and statements of a function, the one with so many parameters; loops and branches are refused."""
+        """Parameters and statements of a function, the one with this many parameters; loops and branches are refused."""
         for text in self.text.values():
             for found in re.finditer(rf"VKH_FN \w+ {name}\(([^)]*)\) \{{(.*?)\n?\}}\n", text, re.S):
                 parameters = [p.split() for p in found[1].split(",")]

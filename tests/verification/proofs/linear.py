@@ -206,7 +206,7 @@ class Unit:
         return self.run(name, arguments)
 
     def run(self, name, arguments, types=None, preset=None, skip=()):
-        """The function of the headers, statement by statement; `skip` are those that `preset` stands for."""
+        """The function of the headers, statement by statement; `skip`: statements that `preset` replaces."""
         parameters, statements = self.headers.function(name, types)
         env = dict(zip(parameters, arguments), **(preset or {}))
         for statement in statements:
