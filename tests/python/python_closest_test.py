@@ -21,14 +21,15 @@ CUBE_FACES = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0
 
 class ClosestPoints(unittest.TestCase):
     def test_rows_stay_in_order(self):
-        points = np.array([[2, 0.5, 0.5], [0.25, 0.5, 0.5], [0.5, 0.5, -3]])
-        r = vkh.closest((CUBE, CUBE_FACES), points)
-        self.assertEqual((r.lower.dtype, r.upper.shape, r.points.shape, r.faces.shape), (np.float64, (3,), (3, 3), (3,)))
-        for i, (distance, at, normal) in enumerate(((1, [1, 0.5, 0.5], 0), (0.25, [0, 0.5, 0.5], 0), (3, [0.5, 0.5, 0], 2))):
-            self.assertTrue(r.lower[i] <= distance <= r.upper[i] < distance + 1e-10, i)
-            np.testing.assert_allclose(r.points[i], at, atol=1e-14)
-            face = CUBE[CUBE_FACES[r.faces[i]]]
-            self.assertEqual(set(face[:, normal]), {at[normal]}, i)
+        """Each point is over the middle of a face, which is then the closest one."""
+        corners = CUBE[CUBE_FACES]
+        middles = corners.mean(axis=1)
+        outward = (middles - 0.5) * (np.ptp(corners, axis=1) == 0)  # half a unit along the face's normal
+        r = vkh.closest((CUBE, CUBE_FACES), middles + 0.25 * outward)
+        self.assertEqual((r.lower.dtype, r.upper.shape, r.points.shape), (np.float64, (12,), (12, 3)))
+        self.assertEqual(r.faces.tolist(), list(range(12)))
+        np.testing.assert_allclose(r.points, middles, atol=1e-14)
+        self.assertTrue((r.lower <= 0.125).all() and (r.upper >= 0.125).all() and (r.upper < 0.125 + 1e-10).all())
 
     def test_it_unpacks_copies_and_pickles(self):
         r = vkh.closest((CUBE, CUBE_FACES), [[2, 0.5, 0.5], [0.5, 0.25, 0.5]])

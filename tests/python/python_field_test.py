@@ -70,6 +70,11 @@ class Fields(unittest.TestCase):
         self.assertEqual(tuple(r.area_within(float("inf"))), (1, 1))
         self.assertIsNone(r.field)
 
+    def test_faces_are_in_their_order(self):
+        roof = SQUARE + [[0, 0, 0.25], [0, 0, 0.25], [0, 0, 0.25], [0, 0, 0.5]], FACES
+        field = vkh.distance(*roof, *FLOOR, field=True).field
+        self.assertLess(field.upper[0], field.lower[1])
+
     def test_what_was_not_asked_is_none(self):
         r = vkh.distance(*LIFTED, *FLOOR)
         self.assertEqual((r.field, r.mean, r.rms, r.percentiles, r.survey_met, r.survey), 6 * (None,))

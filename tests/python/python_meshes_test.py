@@ -224,7 +224,7 @@ class Meshes(unittest.TestCase):
                     vkh.distance(mesh, triangle, **more)
                 with self.assertRaisesRegex(ValueError, "of one triangulation"):
                     vkh.distance(triangle, mesh, **more)
-            self.assertIsNotNone(vkh.distance(mesh, triangle, field=True).field)
+            self.assertIsNotNone(vkh.distance(mesh, triangle, field=True, effort=100).field)
             kept = pickle.loads(pickle.dumps(mesh))
             with self.assertRaisesRegex(ValueError, "of one triangulation"):
                 vkh.distance(kept, triangle, statistics=True)
