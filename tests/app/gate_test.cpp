@@ -58,7 +58,7 @@ TEST_CASE("limits over B and under it") {
   CHECK(fail.out.find(" under B at (") < fail.out.find(") on face "));
   CHECK(fail.out.find(" of A, limit 0.2. Check the inputs: ") < fail.out.find('\n'));
   CHECK(gate("+0.1abs,-0.3abs", {"--area=99%"}).exit_code == 2);
-  CHECK(gate("+0.1abs,-0.3abs", {"--symmetric"}).err.find("ask for each direction by itself") !=
+  CHECK(gate("+0.1abs,-0.3abs", {"--symmetric"}).err.find("ask for each direction separately") !=
         std::string::npos);
   CHECK(gate("+0.1abs").exit_code == 2);
   CHECK(gate("+0.1abs,+0.3abs").exit_code == 2);

@@ -93,7 +93,7 @@ class Gates(unittest.TestCase):
             vkh.gate(A, B, [])
         with self.assertRaisesRegex(ValueError, "the limit of face 1 must be positive"):
             vkh.gate(A, B, [0.3, 0])
-        with self.assertRaisesRegex(ValueError, "each direction apart"):
+        with self.assertRaisesRegex(ValueError, "each direction separately"):
             vkh.gate(A, B, [0.3, 0.3], symmetric=True)
         with self.assertRaisesRegex(AssertionError, "on face 1 of A"):
             vkh.assert_within(A, B, [0.3, 0.2])
