@@ -168,7 +168,7 @@ TEST_CASE("what cannot be written is refused before the run, where that can be t
   check_refused(with_json(loop), "a link that leads nowhere");
   const std::string pipe = folder() / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  check_refused(with_json(pipe), "nobody reads");
+  check_refused(with_json(pipe), "without a reader");
   // No driver has this number: nothing could be overwritten. Only root may make it.
   const std::string disk = folder() / "disk";
   if (mknod(disk.c_str(), S_IFBLK | 0600, makedev(240, 0)) == 0)
