@@ -44,6 +44,12 @@ class Lists(unittest.TestCase):
             for sentence in lists:
                 self.assertFalse(left_out(sentence, extensions()), f"{path}: {sentence}")
 
+    def test_points_are_found_by_what_reads_them(self):
+        known = set(re.findall(r'"\.(\w+)"', part("host/read/mesh_io.cpp", "kKnown = {", "};")))
+        refused = {".stl", ".gltf", ".glb", ".3mf"}  # refuse_without_points
+        read = set(re.findall(r'extension == "\.(\w+)"', part("host/read/mesh_io.cpp", "Parse parser_of_points", "\n}")))
+        self.assertEqual(known, read | {"las"} | {e for e in extensions() if f".{e}" not in refused})  # LAS is told by its first bytes
+
     def test_a_list_too_short_is_seen(self):
         self.assertEqual(left_out("OBJ, STL, PLY, OFF or glTF", {"obj", "glb", "gltf", "3mf"}), {"3mf"})
 
