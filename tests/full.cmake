@@ -27,7 +27,8 @@ if(NOT VKH_SANITIZE)
   # A minute and more each: the same kernels with more cases, compiled for another card or system, fits on a device (they
   # are made natively by default), the page in a browser, and the examples of clusters.
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
-                    proven_placing batch_killed clang_all align_test page_browser real_devices vulkan_faults_of_sets driver_lavapipe128_more platform_arm64 platform_libcxx
+                    proven_placing batch_killed clang_all align_test page_browser real_devices vulkan_faults_of_sets
+                    batch_folders python_lost workspace_test api_limit_test two_drivers driver_lavapipe128_more platform_arm64 platform_libcxx
                      platform_arm64_more platform_nehalem platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
                      slurm dask clusters points_many)
   # A program of its own whose one test is not a default one is built by vkh_full.
