@@ -180,7 +180,7 @@ class Interrupted(Folder):
         whole, truth = (self.folder / "out.jsonl").read_bytes(), self.merged()
         refused = self.run_words("batch", "list.jsonl", "--out", "out.jsonl")
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("--resume", refused.stderr)
+        self.assertIn("has results: add --resume", refused.stderr)
         for cut in (1, whole.index(b"\n"), len(whole) // 2, len(whole) - 1):
             (self.folder / "out.jsonl").write_bytes(whole[:cut])
             done = self.run_words("batch", "list.jsonl", "--out", "out.jsonl", "--resume")

@@ -90,6 +90,10 @@ TEST_CASE("a limit in % of an A that was rounded decides nothing that A's roundi
   CHECK(gate_far_points(a, b, "100%").exit_code == 3);
   CHECK(gate_far_points(a, b, "100%", {"--area", "90%"}).exit_code == 3);
   CHECK(gate_far_points(a, b, "100.0001%").exit_code == 0);
+  CHECK(gate_far_points(a, b, "99.9999%").exit_code == 1);
+  const std::string longer = "1000000006 0 0\n1000000009 0 0\n";  // 76.2 across, and 1e-6 nearer
+  const std::string above = "25400000152.4 0 76.199999\n25400000228.6 0 76.199999\n";
+  CHECK(gate_far_points(longer, above, "100%").exit_code == 3);
 }
 
 // Exact: the diagonal is 2804 times the scale, the limit twice that, and h is less by 2.3e-13 of
@@ -107,21 +111,22 @@ TEST_CASE("a limit in % of a LAS file's offsets decides nothing that they leave 
     return run({"gate", a, b, "--points", "both", "--max", max}).exit_code;
   };
   CHECK(exit_code("200%") == 3);
+  CHECK(exit_code("201%") == 0);
   CHECK(exit_code("199%") == 1);
 }
 
-/// A cube whose faces look outward or inward.
-std::string cube_text(double half, bool is_inward) {
+/// A cube about (at, 0, 0), whose faces look outward or inward.
+std::string cube_text(double at, double half, bool is_inward, int before = 0) {
   std::ostringstream obj;
   for (int i = 0; i < 8; ++i)
-    obj << "v " << (i & 1 ? half : -half) << ' ' << (i & 2 ? half : -half) << ' '
+    obj << "v " << at + (i & 1 ? half : -half) << ' ' << (i & 2 ? half : -half) << ' '
         << (i & 4 ? half : -half) << '\n';
   const int faces[6][4] = {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5},
                            {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}};
   for (const auto& f : faces) {
     for (const int k : {2, 3}) {
       const int second = f[is_inward ? k : k - 1], third = f[is_inward ? k - 1 : k];
-      obj << "f " << f[0] << ' ' << second << ' ' << third << '\n';
+      obj << "f " << before + f[0] << ' ' << before + second << ' ' << before + third << '\n';
     }
   }
   return obj.str();
@@ -129,9 +134,15 @@ std::string cube_text(double half, bool is_inward) {
 
 // A is a tenth under the faces of B.
 TEST_CASE("a B that is inside out is said first where sides have limits, since over is inside it") {
-  const std::string a = write_file("inner.obj", cube_text(0.9, false)),
-                    flipped = write_file("flipped.obj", cube_text(1, true));
+  const std::string a = write_file("inner.obj", cube_text(0, 0.9, false)),
+                    b = write_file("right.obj", cube_text(0, 1, false)),
+                    flipped = write_file("flipped.obj", cube_text(0, 1, true)),
+                    part = write_file("part.obj",
+                                      cube_text(0, 1, false) + cube_text(2.5, 0.2, true, 8));
   const Words limits = {"--max=+0.25abs,-0.05abs"};
+  const Outcome right = run(Words{"gate", a, b} + limits);
+  CHECK(right.exit_code == 1);
+  CHECK(right.out.find("inside out") == std::string::npos);
   const std::string junit = folder() / "flipped.xml";
   const Outcome wrong = run(Words{"gate", a, flipped, "--junit=" + junit} + limits);
   CHECK(wrong.exit_code == 0);
@@ -147,11 +158,16 @@ TEST_CASE("a B that is inside out is said first where sides have limits, since o
   const json answer = answer_in(run(Words{"gate", a, flipped, "--json"} + limits).out);
   CHECK(answer["directions"][0]["signed"]["inside_out"] == "all");
   CHECK(answer["notes"][0]["code"] == "inside-out");
+  CHECK(run(Words{"gate", a, part} + limits)
+            .out.find("a part of B is inside out, so that over means inside it") !=
+        std::string::npos);
   // Without limits of sides no verdict hangs on it: a note is enough.
   const Outcome distance = run({"distance", a, flipped, "--signed", "--symmetric"});
   CHECK(distance.out.substr(0, distance.out.find('\n')).find("inside out") == std::string::npos);
   CHECK(distance.out.find("\n  note       inside-out: B is inside out") != std::string::npos);
   CHECK(distance.out.find("A is inside out") == std::string::npos);
+  CHECK(run({"distance", flipped, b, "--signed", "--symmetric"})
+            .out.find("\n  note       inside-out: A is inside out") != std::string::npos);
 }
 
 TEST_CASE("faces of B that are against each other have no sides") {

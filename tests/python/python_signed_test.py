@@ -93,10 +93,12 @@ class Signed(unittest.TestCase):
         corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
         outward = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
         inner = (0.2 + 0.2 * corners, outward)
-        r = vkh.distance(inner, (corners, outward[:, ::-1]), signed=True)
-        self.assertEqual((r.signed.inside, r.signed.inside_out), ("proven", "all"))
-        self.assertEqual(r.to_dict()["survey"]["signed"]["inside_out"], "all")
-        self.assertIn("inside-out", [note["code"] for note in r.notes])
+        for faces, how in ((outward, "none"), (outward[:, ::-1], "all")):
+            with self.subTest(how):
+                r = vkh.distance(inner, (corners, faces), signed=True)
+                self.assertEqual((r.signed.inside, r.signed.inside_out), ("proven", how))
+                self.assertEqual(r.to_dict()["survey"]["signed"]["inside_out"], how)
+                self.assertEqual("inside-out" in [note["code"] for note in r.notes], how == "all")
 
     def test_faces_against_each_other_are_refused(self):
         bad = (FLOOR[0], np.array([[0, 1, 2], [0, 3, 2]]))
