@@ -17,20 +17,21 @@ endfunction()
 if(NOT VKH_SANITIZE)
   # Each takes over ten seconds, and checks the same as others do with more cases, on another device or driver, or in
   # processes that are ended. The faults, the proofs and the spoilt certificates guard what seldom changes.
-  vkh_label(full fallbacks barriers real_devices workspace_test api_address_test api_limit_test api_move_test presets_test
-                 long_walk_test face_limits_test see effort schema embed_shaders two_drivers driver_lavapipe128
+  vkh_label(full fallbacks barriers api_address_test api_move_test presets_test
+                 long_walk_test face_limits_test see effort schema embed_shaders driver_lavapipe128
                  kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address doctor
-                 vulkan_faults_test vulkan_faults_of_sets memory_faults_test program_faults_test devices_faults_test
-                 proofs mutation_quick attack certificate_polygons align points simplify_program batch batch_folders folder_pairs exit_codes
-                 python_life python_fork python_lost python_distances python_distances_life python_meshes python_metrics
+                 vulkan_faults_test memory_faults_test program_faults_test devices_faults_test
+                 proofs mutation_quick attack certificate_polygons align points simplify_program batch folder_pairs exit_codes
+                 python_life python_fork python_distances python_distances_life python_meshes python_metrics
                  metrics solver_oracle_test cgal_test pages)
-  # A minute and more each: the same kernels with more cases, compiled for another card or system, fits on a device (they
-  # are made natively by default), the page in a browser, and the examples of clusters.
+  # A minute and more each: the same kernels with more cases, compiled for another card or system, on devices that a layer
+  # makes smaller; fits on a device, which are made natively by default; lost devices and folders of batches, which others
+  # have once; the page in a browser; the examples of clusters.
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
                     proven_placing batch_killed clang_all align_test page_browser real_devices vulkan_faults_of_sets
                     batch_folders python_lost workspace_test api_limit_test two_drivers driver_lavapipe128_more platform_arm64 platform_libcxx
-                     platform_arm64_more platform_nehalem platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
-                     slurm dask clusters points_many)
+                    platform_arm64_more platform_nehalem platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
+                    slurm dask clusters points_many)
   # A program of its own whose one test is not a default one is built by vkh_full.
   foreach(source IN LISTS VKH_TEST_SOURCES)
     get_filename_component(name ${source} NAME_WE)
@@ -47,7 +48,6 @@ endif()
 # The sanitizer tree begins with the code that accepts any file: the readers, their tests and their fuzzer, which need
 # four rooms of the host. A start of the instrumented program takes two seconds and more, so that tests of many starts are
 # full; and a compiled test takes twice the time of the release tree's.
-add_custom_target(vkh_nightly)  # programs of the nightly tests
 set(VKH_QUICK_ROOMS files)
 set(VKH_QUICK malformed_files leaks)
 set(VKH_QUICK_PROGRAMS vkh_leak_probe vkh_leaky_driver)
@@ -63,18 +63,21 @@ endforeach()
 get_property(all DIRECTORY PROPERTY TESTS)
 list(REMOVE_ITEM all ${VKH_QUICK})
 vkh_label(full ${all})
-# Each took a minute or more in the sanitizer tree: starts of the program by the dozen, whose code is
-# also run by tests of one start, and searches of the same kernels with more cases. Of the suites that
-# run natively too, closest points stand for all.
+# Half a minute and more each in the sanitizer tree: starts of the program by the dozen, whose code is
+# also run by tests of one start, and searches of the same kernels with more cases. Of the long
+# suites that run natively too, closest points stand for all.
 vkh_label(nightly gate_test cli_test cli_parts_test cli_output_test face_limits_test shared_faces_test schema bodies
                   vkh_check certificates attack certificate_polygons batch batch_folders see effort recipes completion python_life
                   python_meshes python_lost python_environment python_fork python_certificate exit_codes placing many_pairs simplify_program
                   align metrics metrics_long folder_pairs points points_many vulkan_faults_test memory_faults_test devices_faults_test long_walk_test over_test together_test
-                  align_test native_solver_test metrics_natively survey_natively wave_survey_natively simplify_natively cells_natively align_natively answer_json_test
+                  align_test native_solver_test metrics_natively survey_natively wave_survey_natively simplify_natively cells_natively align_natively
+                  point_distances_natively signed_natively answer_json_test
                   pages packed_glb native_program files_by_program pair_schema python_progress python_metrics python_align python_field python_simplify
                   fine_test placed_limits_test closest_test self_test_test cells_test)
 # Arithmetic in exact numbers, and kernels beside their twins on the processor: the sanitizers see the tests alone.
 vkh_label(nightly polygon_test decimal_test orientation_test printed_numbers_test)
+# A program whose one test is nightly is built by vkh_nightly.
+add_custom_target(vkh_nightly)
 foreach(source IN LISTS VKH_TEST_SOURCES)
   get_filename_component(name ${source} NAME_WE)
   if(source MATCHES "/verification/math/|/kernel_[a-z_]*_test")

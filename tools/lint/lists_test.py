@@ -24,9 +24,13 @@ def part(path: str, begin: str, end: str) -> str:
     return text(path).split(begin, 1)[1].split(end, 1)[0]
 
 
-def extensions() -> set[str]:
-    """Those that a mesh is read by."""
-    return set(re.findall(r'extension == "\.(\w+)"', part("host/read/mesh_io.cpp", "Parse parser_by_extension", "\n}")))
+def parsers() -> dict[str, str]:
+    """The parser of each extension that a mesh is read by."""
+    found = {}
+    for line in part("host/read/mesh_io.cpp", "Parse parser_by_extension", "\n}").splitlines():
+        for extension in re.findall(r'extension == "\.(\w+)"', line):
+            found[extension] = re.search(r"return (\w+);", line)[1]
+    return found
 
 
 def left_out(sentence: str, formats: set[str]) -> set[str]:
@@ -37,18 +41,19 @@ def left_out(sentence: str, formats: set[str]) -> set[str]:
 
 class Lists(unittest.TestCase):
     def test_formats_in_words(self):
-        self.assertLessEqual({"obj", "stl", "ply", "off", "gltf", "glb", "3mf"}, extensions())
+        self.assertLessEqual({"obj", "stl", "ply", "off", "gltf", "glb", "3mf"}, set(parsers()))
         for path in PROSE:
             lists = LIST.findall(" ".join(text(path).split()))
             self.assertTrue(lists, f"{path} names no formats; is its list written otherwise?")
             for sentence in lists:
-                self.assertFalse(left_out(sentence, extensions()), f"{path}: {sentence}")
+                self.assertFalse(left_out(sentence, set(parsers())), f"{path}: {sentence}")
 
     def test_points_are_found_by_what_reads_them(self):
         known = set(re.findall(r'"\.(\w+)"', part("host/read/mesh_io.cpp", "kKnown = {", "};")))
-        refused = {".stl", ".gltf", ".glb", ".3mf"}  # refuse_without_points
+        refusing = re.findall(r"&(parse_\w+)", part("host/read/mesh_io.cpp", "void refuse_without_points", "\n}"))
         read = set(re.findall(r'extension == "\.(\w+)"', part("host/read/mesh_io.cpp", "Parse parser_of_points", "\n}")))
-        self.assertEqual(known, read | {"las"} | {e for e in extensions() if f".{e}" not in refused})  # LAS is told by its first bytes
+        with_points = {e for e, parser in parsers().items() if parser not in refusing}
+        self.assertEqual(known, read | with_points | {"las"})  # LAS is recognised by its first bytes
 
     def test_a_list_too_short_is_seen(self):
         self.assertEqual(left_out("OBJ, STL, PLY, OFF or glTF", {"obj", "glb", "gltf", "3mf"}), {"3mf"})
@@ -56,7 +61,7 @@ class Lists(unittest.TestCase):
     def test_no_format_is_read_and_refused(self):
         refused = set(re.findall(r"\.(\w+)", part("host/read/strangers.cpp", "kFormats = {{", "}};")))
         self.assertIn("step", refused)
-        self.assertFalse(refused & extensions())
+        self.assertFalse(refused & set(parsers()))
 
     def test_malformed_files(self):
         modules = {p.stem for p in (SOURCE / "tests/files/malformed").glob("*.py")} - {"cases", "write"}
