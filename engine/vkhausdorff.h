@@ -488,7 +488,7 @@ typedef struct VkhReport {
   uint32_t status;          /* VkhStatus */
   uint32_t waves;           /* that ran, vkhCmdBegin's among them: none runs after the end */
   uint32_t remaining;       /* candidates still open */
-  uint32_t wanted;          /* > 0: the run pauses, and needs room for `wanted` candidates */
+  uint32_t wanted;          /* > 0: it pauses, and needs vkhGetWorkspaceSize for `wanted` */
   float witnessPosition[3]; /* the point of A that proves `lower`, rounded */
   uint32_t witnessFaceA;
   uint32_t witnessFaceB;             /* the face of B closest to it */
