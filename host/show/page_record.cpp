@@ -77,6 +77,7 @@ std::string every_digit(const Answer& answer) {
 
 std::string device_text(const DeviceDescription& device) {
   if (device.name.empty()) return "none was opened";
+  if (device.type == kNative) return in_utf8(device.name) + ", without Vulkan";
   return in_utf8(device.name) + " (" + text_or(device.type, "other") + "), Vulkan " +
          text_or(device.api_version, "not known");
 }
@@ -140,7 +141,7 @@ Json run_rows(const Answer& answer) {
   add("largest deviation, all digits", every_digit(answer), true);
   add("program", "vkhausdorff " + answer.version + ", preset " + text_or(r.preset, "default"));
   add("device", device_text(r.device));
-  add("driver", text_or(r.device.driver, "not known"));
+  if (r.device.type != kNative) add("driver", text_or(r.device.driver, "not known"));
   add("measured", text_or(answer.started, "not known") + " on " +
                       text_or(answer.host, "a machine without a name"));
   add("time taken", times_text(answer));

@@ -65,7 +65,8 @@ async function lookAtPrint(page) {
   seen.printed = await page.evaluate(() => {
     const height = document.documentElement.clientHeight;
     const box = (e) => e.getBoundingClientRect().toJSON();
-    const isWhole = (e) => [...e.querySelectorAll('tr, li')].filter((row) => row.offsetParent).every((row) => row.getBoundingClientRect().bottom <= e.getBoundingClientRect().bottom + 1);
+    const isInside = (inner, outer) => inner.bottom <= outer.bottom + 1 && inner.right <= outer.right + 1;
+    const isWhole = (e) => [...e.querySelectorAll('tr, li')].filter((row) => row.offsetParent).every((row) => isInside(box(row), box(e)));
     return { height, figures: [...document.querySelectorAll('.way figure')].map(box), footer: box(document.querySelector('footer')),
       whole: [...document.querySelectorAll('.way .places, .way .numbers')].map(isWhole) };
   });

@@ -88,13 +88,14 @@ class Browser(unittest.TestCase):
         self.check_print(SCRATCH / f"{name}-{mode}.pdf")
         self.check_printed(seen)
 
-    # Both directions are on the sheet, large enough to be read, and nothing is below its end.
+    # Both directions are on the sheet, large enough to be read, with all their rows, and nothing is below its end.
     def check_printed(self, seen):
         printed = seen["printed"]
         self.assertEqual(len(printed["figures"]), len(seen["data"]["sides"]))
         for box in printed["figures"]:
             self.assertGreater(box["width"], 400)
             self.assertGreater(box["height"], 150)
+        self.assertEqual(printed["whole"], [True] * 2 * len(printed["figures"]), "a row of places or figures is cut off")
         self.assertLessEqual(printed["footer"]["bottom"], printed["height"] + 1)
 
     # The shares beside the slider are the survey's, at each tolerance, and rounded outward.
