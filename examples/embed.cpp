@@ -10,7 +10,7 @@
 namespace {
 
 // [embed]
-VkhReport distance(example::Gpu& gpu, const VkhMesh& a, const VkhMesh& b, float tolerance) {
+VkhReport distance(example::Gpu& gpu, const VkhMesh& a, const VkhMesh& b, float tol) {
   VkhContext vkh = gpu.context();  // vkhCreateContext, once a device
   VkhHierarchyRequirements hierarchy;
   VkhWorkspaceRequirements workspace;
@@ -22,20 +22,21 @@ VkhReport distance(example::Gpu& gpu, const VkhMesh& a, const VkhMesh& b, float 
   const VkDeviceSize room = std::max(workspace.recommended, hierarchy.scratchSize);
   const example::Buffer memory = gpu.buffer(split + room, example::Memory::kDevice);
   const example::Buffer result = gpu.buffer(sizeof(VkhReport), example::Memory::kHost);
-  const VkhMemory scratch{memory.handle, split, room};  // free again before the run begins
+  const VkhMemory scratch{memory.handle, split, room};  // free before the run begins
   VkhProblem problem{};
   problem.a = a;
   problem.b.memory = {memory.handle, 0, split};
   problem.workspace = {memory.handle, split, workspace.recommended};
   problem.options.size = sizeof(problem.options);
-  problem.options.cullTolerance = tolerance;
+  problem.options.cullTolerance = tol;
   gpu.run([&](VkCommandBuffer commands) {
     vkhCmdBuildHierarchy(vkh, commands, &b, &problem.b, &scratch, nullptr);
     vkhCmdBegin(vkh, commands, &problem, nullptr);
     vkhCmdAdvance(vkh, commands, &problem, 16, nullptr);
     vkhCmdWriteReport(vkh, commands, &problem, result.handle, 0, nullptr);
-    example::barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                     VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    example::barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,  // the report
+                     VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+                     VK_ACCESS_HOST_READ_BIT);
   });
   VkhReport report;
   std::memcpy(&report, result.mapped, sizeof(report));

@@ -1,4 +1,5 @@
-"""Each command of the pages runs here: the lines that are indented and begin with the program, vkh_check or a loop.
+"""Each command of the pages runs here: the lines that are indented and begin with the program, vkh_check or a loop, and
+those that they go on in, behind a backslash.
 
 usage: pages_test.py PROGRAM CHECK PAGE... A page's commands run in their order, in one folder with small files of the
 names that they use. Files of the shared pairs are taken from there, if they are there.
@@ -73,7 +74,7 @@ def write_files(folder):
 
 def commands_of(page):
     """What is typed, without comments, and without what cuts the output off."""
-    return [re.split(r"\s+#|\s+\| head", line)[0].strip() for line in COMMAND.findall(page.read_text())]
+    return [re.split(r"\s+#|\s+\| head", line)[0].strip() for line in COMMAND.findall(page.read_text().replace("\\\n", ""))]
 
 
 def run(command, folder):

@@ -28,8 +28,8 @@ endsolid square
 
 
 def lines_of(recipe, command):
-    """The command lines of a recipe with the command, as words."""
-    lines = re.findall(rf"(vkhausdorff {command} .*)$", recipe.read_text(), re.MULTILINE)
+    """The command lines of a recipe with the command, as words; a line that begins with an option goes on the one before."""
+    lines = re.findall(rf"(vkhausdorff {command} .*)$", re.sub(r"\n +(?=--)", " ", recipe.read_text()), re.MULTILINE)
     return [shlex.split(line) for line in lines]
 
 

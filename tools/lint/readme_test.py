@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What README and the users' pages quote is part of a file that a test compiles or runs, letter by letter; their links
-lead somewhere; a README has at most 120 lines, a page 150.
+lead somewhere; a README has at most 120 lines, a page 150; commands and their output end where an A4 sheet does.
 usage: readme_test.py README PAGE... --from FILE... --folder FOLDER
 A comment above a block names its FILE. Every FILE is quoted or linked by one of the pages. Links of all pages in FOLDER,
 and beside README, are followed."""
@@ -9,6 +9,7 @@ import re
 import sys
 
 LONGEST_README, LONGEST_PAGE = 120, 150
+SHEET = 86  # characters of code on A4, as GitHub prints it; the rest is cut off
 
 from_at, folder_at = sys.argv.index("--from"), sys.argv.index("--folder")
 readme, *users = map(pathlib.Path, sys.argv[1:from_at])
@@ -38,6 +39,8 @@ for page in (readme, *users):
     longest = LONGEST_README if page == readme else LONGEST_PAGE
     if len(page.read_text().splitlines()) > longest:
         faults.append(f"{page}: more than {longest} lines")
+    commands = re.findall(r"^ {4}(.*)$", re.sub(r"^```.*?^```$", "", page.read_text(), flags=re.MULTILINE | re.DOTALL), re.MULTILINE)
+    faults += [f"{page}: wider than a sheet: {line}" for line in commands if len(line) > SHEET]
 for page in set(pages):
     for link in re.findall(r"\]\(([^)\s]+)\)", page.read_text()):
         if re.match(r"\w+:", link):

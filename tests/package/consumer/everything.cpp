@@ -18,7 +18,7 @@ int main(int argc, char** argv) {  // everything A B FIELD.ply CERTIFICATE.vhc
   question.verify = true;  // the host checks the witness against every face of B
   question.budget.time_limit_s = 60;
 
-  vkh::Asking asking(question, a, b, solvers);  // and a std::stop_token, if you have one
+  vkh::Asking asking(question, a, b, solvers);  // and a std::stop_token, if any
   while (!asking.wait(std::chrono::steady_clock::now() + std::chrono::seconds(1))) {
     const vkh::WorkDone done = asking.done();  // asking.cancel() would end it
     std::printf("%.0f %%  [%.9g, %.9g]\n", 100 * done.fraction, done.lower, done.upper);

@@ -5,7 +5,7 @@
 
 int main(int argc, char** argv) {  // host B A...
   if (argc < 2) return 2;
-  vkh::Device device;  // the best one; or adopt yours: vkh::Device device(vkh::AdoptedDevice{...})
+  vkh::Device device;  // the best one; or your own, as a vkh::AdoptedDevice
   vkh::Solver solver(device);
   const vkh::PreparedMesh b = solver.prepare(vkh::read_mesh(argv[1]));
   vkh::SolveOptions options;
