@@ -151,25 +151,38 @@ def cell(text):
     return text.replace("|", "\\|")
 
 
+def meaning(option):
+    """The first sentence of its help, of the command that names it first."""
+    text = re.split(r"; |\. | \[|, such as", option["uses"][0]["help"].replace("{lengths}", "a length"))[0].rstrip(".:")
+    return text if text[1].isupper() else text[0].lower() + text[1:]
+
+
 def reference(table):
-    lines = ["# Options", "", f"Every option of every command, its list column and its Python keyword. {MADE[:-1]} from",
-             "`host/answer/options_table.cpp`; `vkhausdorff COMMAND --help-all` says what each does, [limits](limits.md#lengths) what a LENGTH is.", ""]
+    lines = ["# Options", "", "Every option: what it does, in short, and where it is: in commands, in the columns of a [batch's list](batch.md#the-list), in Python.",
+             "`vkhausdorff COMMAND --help-all` has all of its help, [limits](limits.md#lengths) what a LENGTH is.", "",
+             "Redone: whether `batch --resume` does a pair again if the option has changed; [below](#what-is-not-redone) is why not.",
+             f"{MADE[:-1]} from `host/answer/options_table.cpp`.", ""]
     groups = dict.fromkeys(option["group"] for option in table["options"])
+    kept = {}  # the options of each reason for not doing a pair again
     for group in groups:
-        lines += [f"## {group}", "", "| option | of | column | Python | keeps a result apart |", "|---|---|---|---|---|"]
+        lines += [f"## {group}", "", "| option | commands | column | Python | redone |", "|---|---|---|---|---|"]
         for option in table["options"]:
             if option["group"] != group:
                 continue
-            name = f"`--{option['name']}{'' if not option['shape'] or option['shape'][0] == '[' else ' '}{cell(option['shape'])}`" if option["uses"] else "–"
+            name = f"`--{option['name']}{'' if not option['shape'] or option['shape'][0] == '[' else ' '}{cell(option['shape'])}`"
+            name = f"{name}<br>{cell(meaning(option))}" if option["uses"] else "–"
             of = ", ".join(dict.fromkeys(command for use in option["uses"] for command in use["of"])) or "–"
             column = f"`{option['name'].replace('-', '_')}`" if option["column"] else "–"
             functions = ", ".join(option["functions"])
             keyword = f"`{option['keyword']}` of {functions}" if functions else "–"
             in_batch = option["column"] or "batch" in of
-            apart = "–" if not in_batch else f"no: {option['unlike']}" if option["unlike"] else "yes"
-            lines.append(f"| {name} | {of} | {column} | {keyword} | {apart} |")
+            redone = "–" if not in_batch else "no" if option["unlike"] else "yes"
+            if redone == "no":
+                kept.setdefault(option["unlike"], []).append(f"`--{option['name']}`")
+            lines.append(f"| {name} | {of} | {column} | {keyword} | {redone} |")
         lines.append("")
-    return "\n".join(lines)
+    lines += ["## What is not redone", "", "| options | why a pair's result stays |", "|---|---|"]
+    return "\n".join(lines + [f"| {', '.join(options)} | {reason} |" for reason, options in kept.items()]) + "\n"
 
 
 # Python's keywords, of which make_stub.py makes types
