@@ -79,11 +79,11 @@ struct NormalSearch {
         limit_up = 1;  ///< normals agree if their cosine is at least a limit between these two
 };
 
-/// Cells, one entry each.
+/// Cells, one entry each, until they change or are read again.
 struct CellsRead {
-  std::vector<gpu::Cell> cells;
-  std::vector<gpu::CellBounds> bounds;
-  std::vector<uint32_t> classes;
+  std::span<const gpu::Cell> cells;
+  std::span<const gpu::CellBounds> bounds;
+  std::span<const uint32_t> classes;
 };
 
 /// A survey's cells, which stay on the device: they tile A, each with its bounds. Calls block until

@@ -204,14 +204,9 @@ void DeviceCells::write(const CellRange& some, std::span<const gpu::CellBounds> 
 }
 
 CellsRead DeviceCells::read(const CellRange& some) {
-  CellsRead all;
-  const auto make_room = [&](auto& values, Buffer& buffer) {
-    values.resize(some.count);
-    grow(buffer, device_, values.size() * sizeof(values[0]), kRead);
-  };
-  make_room(all.cells, buffers_.cells);
-  make_room(all.bounds, buffers_.bounds);
-  make_room(all.classes, buffers_.classes);
+  grow(buffers_.cells, device_, some.count * sizeof(gpu::Cell), kRead);
+  grow(buffers_.bounds, device_, some.count * sizeof(gpu::CellBounds), kRead);
+  grow(buffers_.classes, device_, some.count * sizeof(uint32_t), kRead);
   waiting_.push_back([&](VkCommandBuffer commands) {
     const VkhSurvey survey = view();
     const VkhSurveyRead read{some.first,
@@ -225,12 +220,13 @@ CellsRead DeviceCells::read(const CellRange& some) {
     vkhCmdReadSurvey(context_, commands, &problem_, &survey, &read);
   });
   submit();
-  const auto copy = [](auto& values, const Buffer& buffer) {
-    copy_together(values.data(), buffer.mapped(), values.size() * sizeof(values[0]));
+  const auto read_from = [&]<class T>(std::span<const T>& values, const Buffer& buffer) {
+    values = {reinterpret_cast<const T*>(buffer.mapped()), some.count};
   };
-  copy(all.cells, buffers_.cells);
-  copy(all.bounds, buffers_.bounds);
-  copy(all.classes, buffers_.classes);
+  CellsRead all;
+  read_from(all.cells, buffers_.cells);
+  read_from(all.bounds, buffers_.bounds);
+  read_from(all.classes, buffers_.classes);
   return all;
 }
 

@@ -412,10 +412,7 @@ void NativeCells::write(const CellRange& some, std::span<const gpu::CellBounds> 
 }
 
 CellsRead NativeCells::read(const CellRange& some) {
-  const auto part = [&]<class T>(const std::vector<T>& of) {
-    const auto first = of.begin() + some.first;
-    return std::vector<T>(first, first + some.count);
-  };
+  const auto part = [&](const auto& of) { return std::span(of).subspan(some.first, some.count); };
   return {part(cells_), part(bounds_), part(classes_)};
 }
 

@@ -79,20 +79,21 @@ bool matters(const gpu::CellBounds& b, const PointDistances::Asked& asked) {
 
 }  // namespace
 
-PointDistances::Measured PointDistances::narrow(CellsRead& points, const Asked& asked,
-                                                size_t most) const {
+PointDistances::Measured PointDistances::narrow(std::span<const gpu::Cell> points,
+                                                std::span<gpu::CellBounds> bounds,
+                                                const Asked& asked, size_t most) const {
   constexpr size_t kPointsOfThread = 256;
   std::vector<size_t> which;
   bool are_all = true;
-  for (size_t i = 0; i < points.bounds.size() && are_all; ++i) {
-    if (!matters(points.bounds[i], asked)) continue;
+  for (size_t i = 0; i < bounds.size() && are_all; ++i) {
+    if (!matters(bounds[i], asked)) continue;
     are_all = which.size() < most;
     if (are_all) which.push_back(i);
   }
   for_each_range_of(kPointsOfThread, which.size(), [&](size_t, size_t begin, size_t end) {
     for (size_t k = begin; k < end; ++k) {
       const size_t i = which[k];
-      points.bounds[i] = narrowed(points.cells[i].face, points.bounds[i]);
+      bounds[i] = narrowed(points[i].face, bounds[i]);
     }
   });
   return {which.size(), are_all};

@@ -32,8 +32,9 @@ class PointDistances {
     size_t count = 0;
     bool are_all = true;  ///< no other one matters
   };
-  /// Narrows the bounds of such points, `most` at most.
-  Measured narrow(CellsRead& points, const Asked& asked, size_t most) const;
+  /// Narrows the bounds of such points, `most` at most; an entry of each for each point.
+  Measured narrow(std::span<const gpu::Cell> points, std::span<gpu::CellBounds> bounds,
+                  const Asked& asked, size_t most) const;
 
  private:
   Corners3 corners(uint32_t face) const;

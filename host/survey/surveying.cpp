@@ -193,8 +193,8 @@ void Surveying::add_normals(SurveyResult& result) {
 void Surveying::add_map(SurveyResult& result) {
   const CellsRead all = waves_->read();
   CellMap map = map_of(all, areas_, pair_, options_);
-  if (has_cheap_sides_) add_cheap_sides(map);
   if (sides_) add_sides(all.classes, map);
+  if (has_cheap_sides_) add_cheap_sides(map);
   result.map = std::make_shared<const CellMap>(std::move(map));
 }
 

@@ -254,9 +254,11 @@ PointDistances::Measured WaveSurvey::measure(const PointDistances::Asked& asked,
   for (size_t first = 0; first < cells_.count() && all.are_all && meter_.goes_on();) {
     const size_t count = std::min(meter_.looks().size(), cells_.count() - first);
     const CellRange some{static_cast<uint32_t>(first), static_cast<uint32_t>(count)};
-    CellsRead points = read(some);
-    const auto [measured, are_all] = distances_->narrow(points, asked, most - all.count);
-    if (measured > 0) meter_.on_device([&] { cells_.write(some, points.bounds); });
+    const CellsRead points = read(some);
+    std::vector<gpu::CellBounds> bounds(points.bounds.begin(), points.bounds.end());
+    const auto [measured, are_all] =
+        distances_->narrow(points.cells, bounds, asked, most - all.count);
+    if (measured > 0) meter_.on_device([&] { cells_.write(some, bounds); });
     all = {all.count + measured, are_all};
     first += count;
   }
