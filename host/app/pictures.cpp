@@ -86,10 +86,11 @@ void Pictures::write_tables(const Measured& measured) const {
 
 void Pictures::draw(const Measured& measured) const {
   const ShownAnswer shown(measured, style_);
-  const std::vector<std::string> pictures = shown.pictures();
-  if (image_.there) image_.there->write(pictures[0]);
-  if (image_.back && pictures.size() > 1) image_.back->write(pictures[1]);
-  if (report_) report_->write(shown.page(pictures, asked_.title));
+  const ShownAnswer::Page drawn =
+      report_ ? shown.page(asked_.title) : ShownAnswer::Page{shown.pictures(), ""};
+  if (image_.there) image_.there->write(drawn.pictures[0]);
+  if (image_.back && drawn.pictures.size() > 1) image_.back->write(drawn.pictures[1]);
+  if (report_) report_->write(drawn.text);
 }
 
 std::string Pictures::write(const Answer& answer, const MeshPointer& a,

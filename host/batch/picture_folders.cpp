@@ -114,11 +114,11 @@ void BatchFolders::write(const EndedPair& ended) const {
   const std::string& id = ended.name.id;
   const std::string key = key_of(ended.name);
   const ShownAnswer shown(measured, style_);
-  std::vector<std::string> pictures = shown.pictures();
-  if (reports_) reports_->write(id, false, shown.page(pictures), key);
+  ShownAnswer::Page drawn = reports_ ? shown.page() : ShownAnswer::Page{shown.pictures(), ""};
+  if (reports_) reports_->write(id, false, std::move(drawn.text), key);
   if (!images_) return;
   for (const Side& side : sides_of(measured))
-    images_->write(id, side.back, std::move(pictures[side.back ? 1 : 0]), key);
+    images_->write(id, side.back, std::move(drawn.pictures[side.back ? 1 : 0]), key);
 }
 
 void BatchFolders::write_indexes(const std::string& file, const std::vector<Entry>& entries,

@@ -1,8 +1,10 @@
 #include "host/show/draw_answer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "host/answer/steps.h"
+#include "host/base/parallel.h"
 #include "host/base/system.h"
 #include "host/show/page.h"
 #include "host/show/page_words.h"
@@ -121,12 +123,24 @@ std::vector<std::string> ShownAnswer::pictures() const {
   return pictures;
 }
 
-std::string ShownAnswer::page(std::span<const std::string> pictures,
-                              const std::string& title) const {
+// The pictures are drawn beside the page's meshes: each takes about as long, and has steps that one
+// core does.
+ShownAnswer::Page ShownAnswer::page(const std::string& title) const {
   PageContents contents{
-      .answer = &answer_, .a_to_b = {sides_[0], pictures[0]}, .title = title, .up = options_.up};
-  if (sides_.size() > 1) contents.b_to_a.emplace(PageDirection{sides_[1], pictures[1]});
-  return to_page(contents);
+      .answer = &answer_, .a_to_b = {sides_[0]}, .title = title, .up = options_.up};
+  if (sides_.size() > 1) contents.b_to_a.emplace(PageDirection{sides_[1]});
+  Page page;
+  std::vector<PageMesh> meshes;
+  for_each_index(2, [&](size_t i) {
+    if (i == 0)
+      meshes = page_meshes(contents);
+    else
+      page.pictures = pictures();
+  });
+  contents.a_to_b.picture = page.pictures[0];
+  if (contents.b_to_a) contents.b_to_a->picture = page.pictures[1];
+  page.text = to_page(contents, std::move(meshes));
+  return page;
 }
 
 }  // namespace vkh

@@ -4,7 +4,6 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -64,9 +63,13 @@ class ShownAnswer {
   /// Returns the bytes of a PNG for each side. A page shows them if there is no WebGL.
   std::vector<std::string> pictures() const;
 
-  /// Returns a page, with `pictures` of the sides and their colours. `title`: its heading; empty:
-  /// the names of both files.
-  std::string page(std::span<const std::string> pictures, const std::string& title = {}) const;
+  struct Page {
+    std::vector<std::string> pictures;
+    std::string text;
+  };
+  /// Returns the pictures, and a page with them and their colours. `title`: its heading; empty: the
+  /// names of both files.
+  Page page(const std::string& title = {}) const;
 
  private:
   const Answer& answer_;

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "host/base/decimal.h"
 #include "host/base/parse_json.h"
 #include "host/show/escape.h"
 #include "host/show/page_assets.h"
 #include "host/show/page_figures.h"
-#include "host/show/page_mesh.h"
 #include "host/show/page_view.h"
 #include "host/show/page_words.h"
 #include "host/show/template.h"
@@ -42,30 +42,22 @@ class PageWriter {
   }
 
   // Takes fewer faces until the file is small enough; a page without a view is better than none.
-  std::string text() {
+  std::string text(std::vector<PageMesh> meshes) {
     keep_pictures();
-    const size_t bare = assembled({}).size();
-    for (size_t faces = std::clamp<size_t>(limits_.faces, 1, kMostFaces);;) {
-      const Meshes meshes = meshes_of(faces);
+    for (size_t faces = limits_.faces;; meshes = page_meshes(contents_, faces)) {
       std::string page = assembled(meshes);
       if (page.size() <= limits_.bytes) return page;
+      const size_t bare = assembled({}).size();
       if (bare >= limits_.bytes || faces <= kLeastFaces) return assembled({});
       const double room =
           static_cast<double>(limits_.bytes - bare) / static_cast<double>(page.size() - bare);
-      const size_t most = std::max(meshes.packed[0].faces, meshes.packed.back().faces);
+      const size_t most = std::max(meshes[0].packed.faces, meshes.back().packed.faces);
       faces = static_cast<size_t>(0.9 * room * static_cast<double>(std::min(faces, most)));
       faces = std::max(faces, kLeastFaces);
     }
   }
 
  private:
-  struct Meshes {
-    std::vector<PackedMesh> packed;
-    std::vector<Place> places;
-    std::vector<bool> is_decimated;
-    std::vector<double> spacings;
-  };
-
   // Pictures may together take two fifths of the page: more is a mistake of their size.
   void keep_pictures() {
     size_t bytes = 0;
@@ -73,20 +65,7 @@ class PageWriter {
     keeps_pictures_ = bytes <= limits_.bytes / 5 * 2;
   }
 
-  Meshes meshes_of(size_t faces) const {
-    Meshes out;
-    for (const PageDirection* side : sides_) {
-      const Picture& drawn = side->shown->drawn;
-      const ShownMesh shown = shown_mesh(drawn.mesh, *drawn.map, *side->shown->scale, faces);
-      out.packed.push_back(packed(shown));
-      out.places.push_back(shown.place);
-      out.is_decimated.push_back(shown.is_decimated);
-      out.spacings.push_back(shown.spacing);
-    }
-    return out;
-  }
-
-  std::string assembled(const Meshes& meshes) const {
+  std::string assembled(const std::vector<PageMesh>& meshes) const {
     Json view = head_view(answer_, contents_.title);
     view["sides"] = Json::array();
     for (const PageDirection* side : sides_) {
@@ -96,12 +75,12 @@ class PageWriter {
       add_picture(*side, view["sides"].back());
     }
     view["record"] = record_view(answer_);
-    view["has_view"] = !meshes.packed.empty();
+    view["has_view"] = !meshes.empty();
     view["answer"] = script_json(answer_json_);
     view["data"] = script_json(data_json(meshes).dump());
     view["meshes"] = Json::array();
-    for (size_t i = 0; i < meshes.packed.size(); ++i)
-      view["meshes"].push_back({{"number", i}, {"bytes", base64(meshes.packed[i].bytes)}});
+    for (size_t i = 0; i < meshes.size(); ++i)
+      view["meshes"].push_back({{"number", i}, {"bytes", base64(meshes[i].packed.bytes)}});
     view["style_sheet"] = std::string(kPageStyle);
     view["viewer"] = std::string(kPageViewer);
     view["style_hash"] = std::string(kPageStyleHash);
@@ -117,7 +96,7 @@ class PageWriter {
                                                   : "The picture was too large for this file.";
   }
 
-  Json data_json(const Meshes& meshes) const {
+  Json data_json(const std::vector<PageMesh>& meshes) const {
     const Enclosure whole = deviation_of(answer_);
     Json data = {{"unit", answer_.unit},
                  {"top", top_},
@@ -154,7 +133,7 @@ class PageWriter {
     return -1;
   }
 
-  Json side_json(size_t i, const Meshes& meshes) const {
+  Json side_json(size_t i, const std::vector<PageMesh>& meshes) const {
     const drawing::MappedPicture& shown = *sides_[i]->shown;
     Json side = {{"from", i == 0 ? "A" : "B"},
                  {"to", i == 0 ? "B" : "A"},
@@ -168,9 +147,9 @@ class PageWriter {
           side["atLimit"] = {band.share.lower, band.share.upper};
       }
     }
-    if (i >= meshes.packed.size()) return side;
-    const PackedMesh& mesh = meshes.packed[i];
-    const Place& place = meshes.places[i];
+    if (i >= meshes.size()) return side;
+    const PackedMesh& mesh = meshes[i].packed;
+    const Place& place = meshes[i].place;
     side["mesh"] = {{"id", "mesh" + std::to_string(i)},
                     {"deflated", can_deflate()},
                     {"faces", mesh.faces},
@@ -178,9 +157,9 @@ class PageWriter {
                     {"unit", mesh.unit},
                     {"lo", {place.lo.x, place.lo.y, place.lo.z}},
                     {"size", place.size},
-                    {"spacing", meshes.spacings[i]}};
-    side["decimated"] = meshes.is_decimated[i];
-    side["caption"] = caption(shown, meshes.is_decimated[i], mesh.faces);
+                    {"spacing", meshes[i].spacing}};
+    side["decimated"] = meshes[i].is_decimated;
+    side["caption"] = caption(shown, meshes[i].is_decimated, mesh.faces);
     return side;
   }
 
@@ -231,8 +210,26 @@ class PageWriter {
 
 }  // namespace
 
+std::vector<PageMesh> page_meshes(const PageContents& contents, size_t faces) {
+  std::vector<PageMesh> meshes;
+  const auto add = [&](const PageDirection& side) {
+    const Picture& drawn = side.shown->drawn;
+    const size_t most = std::clamp<size_t>(faces, 1, kMostFaces);
+    const ShownMesh shown = shown_mesh(drawn.mesh, *drawn.map, *side.shown->scale, most);
+    meshes.push_back({packed(shown), shown.place, shown.is_decimated, shown.spacing});
+  };
+  add(contents.a_to_b);
+  if (contents.b_to_a) add(*contents.b_to_a);
+  return meshes;
+}
+
+std::string to_page(const PageContents& contents, std::vector<PageMesh> meshes,
+                    const PageLimits& limits) {
+  return PageWriter(contents, limits).text(std::move(meshes));
+}
+
 std::string to_page(const PageContents& contents, const PageLimits& limits) {
-  return PageWriter(contents, limits).text();
+  return to_page(contents, page_meshes(contents, limits.faces), limits);
 }
 
 }  // namespace vkh

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "host/show/mapped_picture.h"
+#include "host/show/page_mesh.h"
 #include "vkhausdorff/answer.h"
 
 namespace vkh {
@@ -32,10 +34,24 @@ struct PageLimits {
   size_t faces = 150'000;    ///< for a shown mesh: more would be slow to turn without a GPU
 };
 
+/// The mesh of one direction as a page shows it.
+struct PageMesh {
+  PackedMesh packed;
+  Place place;
+  bool is_decimated = false;
+  double spacing = 0;  ///< as in ShownMesh
+};
+
+/// Returns the meshes of the directions, of at most so many faces. They take the longest of a page,
+/// and need no pictures.
+std::vector<PageMesh> page_meshes(const PageContents& contents, size_t faces = PageLimits{}.faces);
+
 /// Returns the whole file, which carries the answer's JSON. Its figures are the answer's and its
 /// survey's, and shares of area are the survey's at every tolerance. The view has the colours and
 /// places of a picture, in fewer cells of the same map. If a mesh has more faces than a page holds,
-/// the view has fewer faces, and says so.
+/// the view has fewer faces, and says so. `meshes`: of as many faces as the limits say.
+std::string to_page(const PageContents& contents, std::vector<PageMesh> meshes,
+                    const PageLimits& limits = {});
 std::string to_page(const PageContents& contents, const PageLimits& limits = {});
 
 }  // namespace vkh

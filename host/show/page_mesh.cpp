@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/base/hash_index.h"
+#include "host/base/parallel.h"
 #include "host/show/camera.h"
 
 namespace vkh {
@@ -238,8 +239,11 @@ class Corners {
       return static_cast<uint32_t>(std::lower_bound(known.begin(), known.end(), key) -
                                    known.begin());
     };
-    for (size_t i = 0; i < keys_.size(); i += 3)
-      shown.faces.emplace_back(number(keys_[i]), number(keys_[i + 1]), number(keys_[i + 2]));
+    shown.faces.resize(keys_.size() / 3);
+    for_each_block(shown.faces.size(), [&](size_t, size_t begin, size_t end) {
+      for (size_t f = begin; f < end; ++f)
+        shown.faces[f] = {number(keys_[3 * f]), number(keys_[3 * f + 1]), number(keys_[3 * f + 2])};
+    });
   }
 
  private:
