@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -67,7 +68,9 @@ struct Statistics {
   /// of this part. Unset: they are of all of A.
   std::optional<Enclosure> kept = {};
   double max_distance = 0;  ///< what `kept` is within
-  Enclosure mean, rms;      ///< moments of d(x, B) over A
+  /// Moments of d(x, B) over A. Of one that was not computed nothing is known.
+  Enclosure mean = {0, std::numeric_limits<double>::infinity()};
+  Enclosure rms = mean;
   std::vector<AreaWithin> bands;
   std::vector<Percentile> percentiles;
   /// With SurveyOptions::normals_within: the mean of the cosines of angles between A's normals and
