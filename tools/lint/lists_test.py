@@ -8,7 +8,7 @@ import sys
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-PROSE = ("README.md", "docs/formats.md", "docs/limits.md", "docs/man/vkhausdorff.1", "host/app/commands.cpp", "host/include/vkhausdorff/mesh_io.h",
+PROSE = ("README.md", "docs/batch.md", "docs/formats.md", "docs/limits.md", "docs/man/vkhausdorff.1", "host/app/commands.cpp", "host/include/vkhausdorff/mesh_io.h",
          "host/python/mesh.cpp", "host/read/mesh_io.cpp", "host/read/strangers.cpp")
 # A list of formats in words. Lists of meshes name STL, lists of points do not.
 LIST = re.compile(r"\b(?:OBJ, STL|STL, OBJ), PLY, OFF\b.{,50}")
