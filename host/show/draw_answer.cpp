@@ -139,7 +139,7 @@ ShownAnswer::Page ShownAnswer::page(const std::string& title) const {
   });
   contents.a_to_b.picture = page.pictures[0];
   if (contents.b_to_a) contents.b_to_a->picture = page.pictures[1];
-  page.text = to_page(contents, std::move(meshes));
+  page.text = to_page(contents, {}, std::move(meshes));
   return page;
 }
 

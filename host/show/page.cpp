@@ -223,13 +223,13 @@ std::vector<PageMesh> page_meshes(const PageContents& contents, size_t faces) {
   return meshes;
 }
 
-std::string to_page(const PageContents& contents, std::vector<PageMesh> meshes,
-                    const PageLimits& limits) {
+std::string to_page(const PageContents& contents, const PageLimits& limits,
+                    std::vector<PageMesh> meshes) {
   return PageWriter(contents, limits).text(std::move(meshes));
 }
 
 std::string to_page(const PageContents& contents, const PageLimits& limits) {
-  return to_page(contents, page_meshes(contents, limits.faces), limits);
+  return to_page(contents, limits, page_meshes(contents, limits.faces));
 }
 
 }  // namespace vkh

@@ -50,8 +50,8 @@ std::vector<PageMesh> page_meshes(const PageContents& contents, size_t faces = P
 /// survey's, and shares of area are the survey's at every tolerance. The view has the colours and
 /// places of a picture, in fewer cells of the same map. If a mesh has more faces than a page holds,
 /// the view has fewer faces, and says so. `meshes`: of as many faces as the limits say.
-std::string to_page(const PageContents& contents, std::vector<PageMesh> meshes,
-                    const PageLimits& limits = {});
+std::string to_page(const PageContents& contents, const PageLimits& limits,
+                    std::vector<PageMesh> meshes);
 std::string to_page(const PageContents& contents, const PageLimits& limits = {});
 
 }  // namespace vkh
