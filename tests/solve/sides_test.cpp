@@ -297,7 +297,8 @@ void attack(Attack& attack, uint64_t seed, uint32_t cells) {
     const size_t at_least = size_t{1} << (6 + random.below(6));
     SideSearch by_planes = sides.search();
     by_planes.is_solid = false;
-    const std::vector<uint32_t> classes = sided_cells(pair, by_planes, at_least).classes;
+    const std::span<const uint32_t> found = sided_cells(pair, by_planes, at_least).classes;
+    const std::vector<uint32_t> classes(found.begin(), found.end());
     const CellsRead told = sided_cells(pair, sides.search(), at_least);
     REQUIRE(classes.size() == told.cells.size());
     for (uint32_t k = 0; k < cells; ++k) {

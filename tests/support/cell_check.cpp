@@ -137,9 +137,8 @@ void CellCheck::check_means(const Placed& cell, CellTally& tally) const {
   tally.means += up < mean - doubt || square_up < square - 2 * (most + doubt) * doubt;
 }
 
-void CellCheck::check(const std::vector<gpu::Cell>& cells,
-                      const std::vector<gpu::CellBounds>& bounds, uint64_t seed,
-                      CellTally& tally) const {
+void CellCheck::check(std::span<const gpu::Cell> cells, std::span<const gpu::CellBounds> bounds,
+                      uint64_t seed, CellTally& tally) const {
   for (size_t i = 0; i < cells.size(); ++i) {
     const gpu::uvec4& w = cells[i].corners;
     const lib::Bary3 t = lib::unpack_corners({w.x, w.y, w.z, w.w});

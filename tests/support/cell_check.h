@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "host/solve/cells.h"
 #include "tests/verification/oracle/closest.h"
@@ -33,7 +34,7 @@ class CellCheck {
   CellCheck(const SurveyedPair& pair, const Mesh& b);
   void check(const BoundCells& bound, uint64_t seed, size_t count, CellTally& tally) const;
   /// Checks these cells, too.
-  void check(const std::vector<gpu::Cell>& cells, const std::vector<gpu::CellBounds>& bounds,
+  void check(std::span<const gpu::Cell> cells, std::span<const gpu::CellBounds> bounds,
              uint64_t seed, CellTally& tally) const;
 
  private:
