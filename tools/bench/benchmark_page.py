@@ -39,8 +39,8 @@ def rows(path):
 
 def races():
     """Pairs that both closed: name, family, faces, ours, peer's (ms)."""
-    peers = {row["pair"]: row for row in rows("docs/data/cpu-sota-on-the-h100-host.csv")}
-    for row in rows("docs/data/h100-1e-6.csv"):
+    peers = {row["pair"]: row for row in rows("docs/data/cpu-sota-on-the-h200-host.csv")}
+    for row in rows("docs/data/h200-1e-6.csv"):
         peer = peers.get(row["pair"])
         if peer and peer["status"] == row["status"] == "closed":
             faces = int(row["faces_a"]) + int(row["faces_b"])
@@ -65,7 +65,7 @@ def race_table():
 
 def together_table():
     """Sums of GPU time that vkh_bench --together printed behind each series."""
-    text = (ROOT / "docs/data/h100-together.csv").read_text()
+    text = (ROOT / "docs/data/h200-together.csv").read_text()
     series = {}
     for part in text.split("# device")[1:]:
         # Pairs are cut into groups of N; the largest group is a full one.
@@ -95,7 +95,7 @@ def switch_table():
 
 
 def growth(surface):
-    return [row for row in rows("docs/data/h100-growth.csv") if row["surface"] == surface]
+    return [row for row in rows("docs/data/h200-growth.csv") if row["surface"] == surface]
 
 
 def gpu_ms(row):
@@ -146,7 +146,7 @@ def draw(kind):
         axis.scatter(faces, peers, s=16, marker="^", facecolors="none", edgecolors=FAMILY_COLOURS[family])
         axis.scatter(faces, ours, s=16, color=FAMILY_COLOURS[family], label=title)
     axis.set(xscale="log", yscale="log", xlabel="faces of A and B together", ylabel="time of one pair, ms",
-             title="CPU-SOTA on one core: triangles. One H100: dots.")
+             title="CPU-SOTA on one core: triangles. One H200: dots.")
     axis.title.set_fontsize(9.5)
     axis.grid(alpha=0.3)
     axis.legend(fontsize=8, loc="center left")
@@ -178,7 +178,7 @@ def draw(kind):
     first = gpu_ms(found[0])
     axis.plot(faces, [first * f / faces[0] for f in faces], color="black", linewidth=0.8, linestyle=":", label="linear")
     axis.set(xscale="log", yscale="log", xlabel="faces of A and B together", ylabel="time, ms",
-             title="A noisy torus against another of half its faces. One H100, 16 cores.")
+             title="A noisy torus against another of half its faces. One H200, 16 cores.")
     axis.title.set_fontsize(9.5)
     axis.grid(alpha=0.3)
     axis.legend(fontsize=8)

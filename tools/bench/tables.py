@@ -297,7 +297,7 @@ def main():
         summary(out, changed, "Changes of presets")
     if args.peer:
         with open(args.peer, newline="") as file:
-            write_peer_tables(out, bench, {row["pair"]: row for row in csv.DictReader(file)})
+            write_peer_tables(out, bench, {row["pair"]: row for row in csv.DictReader(line for line in file if not line.startswith("#"))})
     write_breakdown(out, bench)
     write_top(out, bench, "default", "Table 4")
     write_top(out, bench, "paper", "Likewise")
