@@ -18,19 +18,20 @@ if(NOT VKH_SANITIZE)
   # Each takes over ten seconds, and checks the same as others do with more cases, on another device or driver, or in
   # processes that are ended. The faults, the proofs and the spoilt certificates guard what seldom changes.
   vkh_label(full fallbacks barriers api_address_test api_move_test presets_test
-                 long_walk_test face_limits_test see effort schema embed_shaders driver_lavapipe128
-                 kernel_bvh_by_address kernel_load_by_address kernel_rank_by_address doctor
-                 vulkan_faults_test memory_faults_test program_faults_test devices_faults_test
+                 long_walk_test face_limits_test see effort schema doctor
+                 memory_faults_test program_faults_test devices_faults_test
                  proofs mutation_quick attack certificate_polygons align points simplify_program batch folder_pairs exit_codes
                  python_life python_fork python_distances python_distances_life python_meshes python_metrics
                  metrics solver_oracle_test cgal_test pages)
-  # A minute and more each: the same kernels with more cases, compiled for another card or system, on devices that a layer
-  # makes smaller; fits on a device, which are made natively by default; lost devices and folders of batches, which others
-  # have once; the page in a browser; the examples of clusters.
+  # Half a minute and more: the same kernels with more cases, by address, compiled for another card or system, on narrower
+  # vectors or devices that a layer makes smaller; each fault of a driver at each of its calls; fits on a device, which are made
+  # natively by default; lost devices and folders of batches, which others have once; the page in a browser; the examples of
+  # clusters.
   vkh_label(nightly metrics_long placed_limits_long attack_long certificate_polygons_long proofs_in_coq proven_vkh_check proven_certificates proven_attack
                     proven_placing batch_killed clang_all align_test page_browser real_devices vulkan_faults_of_sets
                     batch_folders python_lost workspace_test api_limit_test two_drivers driver_lavapipe128_more platform_arm64 platform_libcxx
-                    platform_arm64_more platform_nehalem platform_windows driver_swiftshader_more kernel_query_by_address compile_amd regrouped
+                    platform_arm64_more platform_nehalem platform_windows driver_swiftshader_more kernel_query_by_address kernel_bvh_by_address kernel_load_by_address
+                    kernel_rank_by_address compile_amd regrouped embed_shaders driver_lavapipe128 vulkan_faults_test
                     slurm dask clusters points_many)
   # A program of its own whose one test is not a default one is built by vkh_full.
   foreach(source IN LISTS VKH_TEST_SOURCES)
