@@ -34,9 +34,8 @@ VkhReport distance(example::Gpu& gpu, const VkhMesh& a, const VkhMesh& b, float 
     vkhCmdBegin(vkh, commands, &problem, nullptr);
     vkhCmdAdvance(vkh, commands, &problem, 16, nullptr);
     vkhCmdWriteReport(vkh, commands, &problem, result.handle, 0, nullptr);
-    example::barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,  // the report
-                     VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
-                     VK_ACCESS_HOST_READ_BIT);
+    example::barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                     VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
   });
   VkhReport report;
   std::memcpy(&report, result.mapped, sizeof(report));

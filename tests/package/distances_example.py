@@ -9,7 +9,8 @@ parts = {f"part {k}": (reference[0] * (1 + k / 100), faces) for k in range(5)}
 for r in vkh.distances(((name, part, reference) for name, part in parts.items()), tol=1e-4):
     print(r.index, r.id, r.error or f"{r.lower} <= h <= {r.upper}")
 
-pairs = [*parts.items(), ("gone", "gone.stl")]
-with vkh.distances(pairs, against=reference, max=0.05) as results:
+with vkh.distances(
+    [*parts.items(), ("gone", "gone.stl")], against=reference, max=0.05
+) as results:
     for r in results:
         print(r.id, r.verdict if r.error is None else r.error)

@@ -11,7 +11,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PROSE = ("README.md", "docs/batch.md", "docs/formats.md", "docs/limits.md", "docs/man/vkhausdorff.1", "host/app/commands.cpp", "host/include/vkhausdorff/mesh_io.h",
          "host/python/mesh.cpp", "host/read/mesh_io.cpp", "host/read/strangers.cpp")
 # A list of formats in words. Lists of meshes name STL, lists of points do not.
-LIST = re.compile(r"\b(?:OBJ, STL|STL, OBJ), PLY, OFF\b.{,50}")
+LIST = re.compile(r"(?:\b(?:OBJ, STL|STL, OBJ), PLY, OFF\b|`\.obj`, `\.stl`).{,60}")
 SAME_AS = {"glb": "gltf"}  # one format by two extensions
 FUZZ = "tests/verification/fuzz"
 
