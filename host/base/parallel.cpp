@@ -29,7 +29,7 @@ size_t thread_count() {
 void limit_threads(size_t threads) { thread_limit = threads; }
 
 size_t threads_for(uint64_t bytes) {
-  constexpr uint64_t kEach = uint64_t{4} << 20;
+  constexpr uint64_t kEach = uint64_t{1} << 19;
   return std::clamp<size_t>(static_cast<size_t>(bytes / kEach), 1, thread_count());
 }
 
