@@ -71,6 +71,7 @@ inline size_t worst_face(const Field& field) {
 /// Distributions of the field's own bounds, by area: true of every field.
 inline Statistics invented_statistics(const Mesh& mesh, const Field& field) {
   Statistics out;
+  out.mean = out.rms = {0, 0};
   std::vector<double> areas;
   for (size_t f = 0; f < mesh.faces.size(); ++f) {
     const glm::dvec3 a = mesh.vertices[mesh.faces[f].x];
