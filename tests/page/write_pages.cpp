@@ -9,6 +9,7 @@
 
 #include "host/batch/index.h"
 #include "host/show/page.h"
+#include "host/survey/area_figures.h"
 #include "tests/page/invented.h"
 #include "tests/shapes/shapes.h"
 #include "vkhausdorff/mesh_io.h"
@@ -29,16 +30,6 @@ std::string bytes_of(const std::string& path) {
 vkh::Mesh mesh_of(int count, char** words, int at) {
   if (count > at) return vkh::read_mesh(words[at]);
   return at == 2 ? vkh::test::torus(20, 6, 120, 48) : vkh::test::uv_sphere(18, 60, 90);
-}
-
-/// Gives figures estimates, as a survey does: with their ends beside them rows are as wide as they
-/// come.
-void estimate(vkh::Statistics& figures) {
-  const auto middle = [](vkh::Enclosure& e) { e.estimate = (e.lower + e.upper) / 2; };
-  middle(figures.mean);
-  middle(figures.rms);
-  for (vkh::Percentile& percentile : figures.percentiles) middle(percentile.distance);
-  for (vkh::AreaWithin& band : figures.bands) middle(band.share);
 }
 
 void write_page(const std::string& path, const Invented& pair, const vkh::PageLimits& limits = {}) {
@@ -87,7 +78,8 @@ int main(int count, char** words) {
   const std::string folder = std::string(words[1]) + "/";
   const vkh::Mesh a = mesh_of(count, words, 2), b = mesh_of(count, words, 3);
   Invented pair(a, b);
-  estimate(*pair.answer.survey_a->statistics);
+  // With estimates beside their ends, rows are as wide as they come.
+  vkh::add_middles(false, *pair.answer.survey_a->statistics);
   pair.ask(1.2);
   write_page(folder + "pass.html", pair);
   pair.ask(0.5);
