@@ -16,7 +16,7 @@ import pathlib
 import statistics
 import sys
 
-from benchmark_page import percentile
+from benchmark_page import percentile, rows as rows_of
 
 PRESETS = ("default", "paper", "baseline-gpu")
 FAMILIES = ("tetwild", "decimation")
@@ -24,12 +24,7 @@ TOP = 5
 
 
 def read_rows(paths):
-    rows = {}
-    for path in paths:
-        with open(path, newline="") as file:
-            for row in csv.DictReader(line for line in file if not line.startswith("#")):
-                rows[row["pair"], row["preset"]] = row
-    return rows
+    return {(row["pair"], row["preset"]): row for path in paths for row in rows_of(pathlib.Path(path).resolve())}
 
 
 def base_of(variant):
@@ -296,8 +291,7 @@ def main():
     if changed is not bench:
         summary(out, changed, "Changes of presets")
     if args.peer:
-        with open(args.peer, newline="") as file:
-            write_peer_tables(out, bench, {row["pair"]: row for row in csv.DictReader(line for line in file if not line.startswith("#"))})
+        write_peer_tables(out, bench, {row["pair"]: row for row in rows_of(pathlib.Path(args.peer).resolve())})
     write_breakdown(out, bench)
     write_top(out, bench, "default", "Table 4")
     write_top(out, bench, "paper", "Likewise")
