@@ -123,8 +123,8 @@ std::vector<std::string> ShownAnswer::pictures() const {
   return pictures;
 }
 
-// The pictures are drawn beside the page's meshes: each takes about as long, and has steps that one
-// core does.
+// Draws the pictures while the page's meshes are made: both take about as long, and parts of both
+// use a single core.
 ShownAnswer::Page ShownAnswer::page(const std::string& title) const {
   PageContents contents{
       .answer = &answer_, .a_to_b = {sides_[0]}, .title = title, .up = options_.up};

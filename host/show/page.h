@@ -42,8 +42,8 @@ struct PageMesh {
   double spacing = 0;  ///< as in ShownMesh
 };
 
-/// Returns the meshes of the directions, of at most `faces` faces each. They take the longest of a
-/// page, and need no pictures.
+/// Returns the meshes of the directions, of at most `faces` faces each. This is a page's longest
+/// step, and needs no pictures.
 std::vector<PageMesh> page_meshes(const PageContents& contents, size_t faces = PageLimits{}.faces);
 
 /// Returns the whole file, which carries the answer's JSON. Its figures are the answer's and its

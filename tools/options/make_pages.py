@@ -160,7 +160,7 @@ def meaning(option):
 def reference(table):
     lines = ["# Options", "", "Every option: what it does, in short, and where it is: in commands, in the columns of a [batch's list](batch.md#the-list), in Python.",
              "`vkhausdorff COMMAND --help-all` has all of its help, [limits](limits.md#lengths) what a LENGTH is.", "",
-             "Redone: whether `batch --resume` does a pair again if the option has changed; [below](#what-is-not-redone) is why not.",
+             "The last column says whether `batch --resume` does a pair again if the option has changed; [below](#what-is-not-redone) says why not.",
              f"{MADE[:-1]} from `host/answer/options_table.cpp`.", ""]
     groups = dict.fromkeys(option["group"] for option in table["options"])
     kept = {}  # the options of each reason for not doing a pair again
