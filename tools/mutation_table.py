@@ -368,7 +368,7 @@ ROWS = [
         ["std::abs(exact) * 0x1p-53", "std::abs(exact) * 0x1p-54", "std::abs(exact) * 0x1p-56", "0.0"], ON_FRAME),
     row("the frame's underflow", FRAME, "scaled_exactly ? 0 : 0x1p-1000",
         ["scaled_exactly ? 0 : 0x1p-1060", "0.0"], ON_FRAME),
-    row("the largest displacement", FRAME, "worst * (1 + 0x1p-50)", ["worst"], ON_FRAME),
+    row("the largest displacement", FRAME, "plan.displacement *= 1 + 0x1p-50", ["plan.displacement *= 1"], ON_FRAME),
     row("the sum of three displacements", FRAME, "sum += displaced(", ["sum = displaced("], ON_FRAME),
     row("lower's displacement", FRAME, "add_down(lower, -displacement)",
         ["add_down(lower, -0.5 * displacement)", "lower"], ON_FRAME),

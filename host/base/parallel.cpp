@@ -2,20 +2,101 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <cstring>
 #include <exception>
-#include <future>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
+#include "host/base/begin_now.h"
 #include "host/base/float_environment.h"
+#include "host/base/system.h"
 
 namespace vkh {
 
 namespace {
 
 std::atomic<size_t> thread_limit = 0;
+
+/// Threads that wait for work and never end: waking one takes an H200's host some 30 us, and
+/// starting one a tenth of a millisecond and more (docs/log/startup.md).
+class Helpers {
+ public:
+  /// Calls work(), which throws nothing, here and on `most` helpers, or on fewer if there are none.
+  /// Returns when all of them have ended. A helper that comes too late does not call it.
+  void share(const std::function<void()>& work, size_t most) {
+    Job job(work, most);
+    {
+      const std::lock_guard lock(mutex_);
+      jobs_.push_back(&job);
+      open_ += most;
+      hire();
+    }
+    for (size_t i = 0; i < most; ++i) has_work_.notify_one();
+    work();
+    std::unique_lock lock(mutex_);
+    std::erase(jobs_, &job);
+    open_ -= job.open;
+    job.left.wait(lock, [&] { return job.inside == 0; });
+  }
+
+ private:
+  struct Job {
+    Job(const std::function<void()>& what, size_t most) : work(what), open(most) {}
+    const std::function<void()>& work;
+    size_t open;        // helpers that may still come
+    size_t inside = 0;  // helpers that are at work
+    std::condition_variable left;
+  };
+
+  void hire() {
+    constexpr size_t kMostHelpers = 63;
+    try {
+      for (; idle_ < open_ && hired_ < kMostHelpers; ++idle_, ++hired_)
+        leave_thread(std::thread([this] { help(); }));
+    } catch (const std::system_error&) {  // goes on with fewer
+    }
+  }
+
+  [[noreturn]] void help() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      has_work_.wait(lock, [&] { return !jobs_.empty(); });
+      Job& job = *jobs_.front();
+      if (--job.open == 0) jobs_.erase(jobs_.begin());
+      --open_;
+      ++job.inside;
+      --idle_;
+      lock.unlock();
+      job.work();
+      lock.lock();
+      ++idle_;
+      if (--job.inside == 0) job.left.notify_one();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable has_work_;
+  std::vector<Job*> jobs_;       // with places for helpers
+  size_t open_ = 0;              // those places
+  size_t idle_ = 0, hired_ = 0;  // helpers
+};
+
+// It is never destroyed, since threads wait in it when the process exits. A forked process has none
+// of these threads, and gets another one.
+std::atomic<Helpers*> g_helpers = nullptr;
+void renew_helpers() { g_helpers = new Helpers; }
+
+Helpers& helpers() {
+  [[maybe_unused]] static const bool is_made = [] {
+    renew_helpers();
+    call_in_forks(renew_helpers);
+    return true;
+  }();
+  return *g_helpers;
+}
 
 }  // namespace
 
@@ -29,7 +110,7 @@ size_t thread_count() {
 void limit_threads(size_t threads) { thread_limit = threads; }
 
 size_t threads_for(uint64_t bytes) {
-  constexpr uint64_t kEach = uint64_t{1} << 19;
+  constexpr uint64_t kEach = uint64_t{1} << 17;
   return std::clamp<size_t>(static_cast<size_t>(bytes / kEach), 1, thread_count());
 }
 
@@ -51,12 +132,11 @@ void for_each_index(size_t count, const std::function<void(size_t)>& work, size_
       }
     }
   };
-  std::vector<std::future<void>> shares = {};
-  shares.push_back(std::async(std::launch::deferred, some));  // runs here, when it is waited for
-  for (size_t i = 1; i < std::min(threads, count); ++i)
-    shares.push_back(std::async(std::launch::async | std::launch::deferred, some));
-  for (std::future<void>& share : shares) share.wait();
-  for (std::future<void>& share : shares) share.get();
+  if (std::min(threads, count) > 1) {
+    helpers().share(some, std::min(threads, count) - 1);
+  } else {
+    some();
+  }
   if (error) std::rethrow_exception(error);
 }
 

@@ -13,12 +13,12 @@ size_t thread_count();
 /// the number of cores. It may be called at any time: work that has begun keeps its threads.
 void limit_threads(size_t threads);
 
-/// The number of threads worth starting to write this many bytes: starting a thread costs as much
-/// as writing some of them, and more if all cores are busy.
+/// The number of threads worth waking to write this many bytes.
 size_t threads_for(uint64_t bytes);
 
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
-/// any are available, on `threads` in all. After all have ended, throws the exception of the least
+/// any are available, on `threads` in all. The others wait for more work afterwards, until the
+/// process ends. After all have ended, throws the exception of the least
 /// index that threw, no matter which came first.
 void for_each_index(size_t count, const std::function<void(size_t)>& work,
                     size_t threads = thread_count());

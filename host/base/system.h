@@ -74,6 +74,9 @@ std::string host_name();
 /// system does not name it.
 std::string processor_name();
 
+/// Has `renew` called in each child that this process forks, where a system forks.
+void call_in_forks(void (*renew)());
+
 /// Ends the program now, without exit handlers, and without the libraries' own: our threads may be
 /// within a driver.
 [[noreturn]] void end_process(int code);

@@ -1,3 +1,4 @@
+#include <pthread.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 #ifdef __APPLE__
@@ -92,6 +93,8 @@ std::string processor_name() {
   return machine_name();
 }
 #endif
+
+void call_in_forks(void (*renew)()) { pthread_atfork(nullptr, nullptr, renew); }
 
 void end_process(int code) { std::_Exit(code); }
 

@@ -102,6 +102,8 @@ std::string processor_name() {
   return is_known ? name_of(fs::path(name.data())) : "unknown processor";
 }
 
+void call_in_forks(void (*)()) {}
+
 unsigned long process_id() { return GetCurrentProcessId(); }
 
 // Avoids ExitProcess, which _Exit calls: it ends the other threads first, then notifies every

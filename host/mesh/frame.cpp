@@ -1,12 +1,16 @@
 #include "vkhausdorff/frame.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "host/base/hypot3.h"
 #include "host/base/parallel.h"
@@ -107,19 +111,33 @@ struct VertexRange {
   size_t begin = 0, end = 0;
 };
 
-// The number of ranges of vertices that are each worth a thread: 0.3 ms where coordinates have low
-// parts.
-size_t parts_of(const Mesh& mesh) {
-  constexpr size_t kVerticesOfThread = 1 << 13;
-  return std::max<size_t>(mesh.vertices.size() / kVerticesOfThread, 1);
+using Meshes = std::span<const Mesh* const>;
+
+// The ranges of a mesh's vertices that are each worth waking a thread: 70 us where coordinates have
+// low parts.
+std::vector<VertexRange> ranges_of(const Mesh& mesh) {
+  constexpr size_t kVerticesOfThread = 1 << 11;
+  const size_t count = mesh.vertices.size(),
+               ranges = std::max<size_t>(count / kVerticesOfThread, 1);
+  std::vector<VertexRange> all;
+  for (size_t i = 0; i < ranges; ++i) all.push_back({count * i / ranges, count * (i + 1) / ranges});
+  return all;
 }
 
-template <class F>
-void for_each_range(const Mesh& mesh, const F& work) {
-  const size_t count = mesh.vertices.size(), parts = parts_of(mesh);
-  for_each_index(parts, [&](size_t part) {
-    work(part, VertexRange{count * part / parts, count * (part + 1) / parts});
+// Calls work(mesh, range) for all ranges of all meshes, several at once. Returns what it returned,
+// with the mesh's number.
+template <class Result, class F>
+std::vector<std::pair<size_t, Result>> over_ranges(Meshes meshes, const F& work) {
+  std::vector<std::pair<size_t, VertexRange>> ranges;
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    for (const VertexRange range : ranges_of(*meshes[i])) ranges.emplace_back(i, range);
+  }
+  std::vector<std::pair<size_t, Result>> found(ranges.size());
+  for_each_index(ranges.size(), [&](size_t i) {
+    const auto [mesh, range] = ranges[i];
+    found[i] = {mesh, work(*meshes[mesh], range)};
   });
+  return found;
 }
 
 // Whether each coordinate is a float, and no subnormal one, once it is scaled: a frame around the
@@ -155,19 +173,19 @@ Stored store_range(const Frame& frame, const Mesh& mesh, VertexRange range, bool
   return stored;
 }
 
-StoragePlan store_in(const Frame& frame, const Mesh& mesh, bool only_high) {
-  StoragePlan out{.frame = frame};
-  std::vector<Stored> stored(parts_of(mesh));
-  for_each_range(mesh, [&](size_t part, VertexRange range) {
-    stored[part] = store_range(frame, mesh, range, only_high);
-  });
-  double worst = 0;
-  for (const Stored& s : stored) {
-    worst = std::max(worst, s.worst);
-    out.has_low = out.has_low || s.has_low;
+// Plans each mesh.
+std::vector<StoragePlan> store_in(const Frame& frame, Meshes meshes, bool only_high) {
+  const auto store = [&](const Mesh& mesh, VertexRange range) {
+    return store_range(frame, mesh, range, only_high);
+  };
+  std::vector<StoragePlan> plans(meshes.size(), StoragePlan{.frame = frame});
+  for (const auto& [mesh, stored] : over_ranges<Stored>(meshes, store)) {
+    StoragePlan& plan = plans[mesh];
+    plan.displacement = std::max(plan.displacement, stored.worst);
+    plan.has_low = plan.has_low || stored.has_low;
   }
-  out.displacement = worst * (1 + 0x1p-50);
-  return out;
+  for (StoragePlan& plan : plans) plan.displacement *= 1 + 0x1p-50;
+  return plans;
 }
 
 // Scaling is exact except for underflow, which leaves less than 2^-1000. Delta is not part of the
@@ -180,27 +198,47 @@ StoragePlan with_delta(StoragePlan stored, const Frame& frame, const Mesh& mesh)
   return stored;
 }
 
-// Returns nothing if a coordinate needs a low part.
-std::optional<StoragePlan> store_exactly(const Frame& frame, const Mesh& mesh) {
-  StoragePlan stored = store_in(frame, mesh, true);
-  if (stored.has_low || !(stored.displacement < 0x1p-61)) return std::nullopt;
-  return stored;
+bool is_exact(const StoragePlan& stored) {
+  return !stored.has_low && stored.displacement < 0x1p-61;
 }
 
-}  // namespace
-
-Box bounding_box(const Mesh& mesh) {
-  std::vector<Box> boxes(parts_of(mesh));
-  for_each_range(mesh, [&](size_t part, VertexRange range) {
+// Returns each mesh's box.
+std::vector<Box> boxes_of(Meshes meshes) {
+  const auto box_of = [](const Mesh& mesh, VertexRange range) {
     glm::dvec3 lo = mesh.vertices[range.begin], hi = lo;  // in registers, which a Box would not be
     for (size_t v = range.begin; v < range.end; ++v) {
       const DVec3& p = mesh.vertices[v];
       lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
       hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
     }
-    boxes[part] = {lo, hi};
-  });
-  return std::accumulate(boxes.begin(), boxes.end(), boxes.front(), join);
+    return Box{lo, hi};
+  };
+  std::vector<std::optional<Box>> boxes(meshes.size());
+  for (const auto& [mesh, box] : over_ranges<Box>(meshes, box_of))
+    boxes[mesh] = boxes[mesh] ? join(*boxes[mesh], box) : box;
+  std::vector<Box> all;
+  for (const std::optional<Box>& box : boxes) all.push_back(*box);
+  return all;
+}
+
+// Plans meshes in one frame: around the origin if that stores them exactly, else around their
+// middle. `boxes` are theirs.
+std::vector<StoragePlan> plans_of(Meshes meshes, const std::vector<Box>& boxes) {
+  const Box joint = std::accumulate(boxes.begin(), boxes.end(), boxes.front(), join);
+  std::vector<StoragePlan> plans;
+  if (may_keep_origin(joint)) plans = store_in(frame_around(joint, glm::dvec3(0)), meshes, true);
+  if (plans.empty() || !std::all_of(plans.begin(), plans.end(), is_exact))
+    plans = store_in(frame_around(joint, middle_of(joint)), meshes, false);
+  for (size_t i = 0; i < meshes.size(); ++i)
+    plans[i] = with_delta(plans[i], plans[i].frame, *meshes[i]);
+  return plans;
+}
+
+}  // namespace
+
+Box bounding_box(const Mesh& mesh) {
+  const std::array<const Mesh*, 1> alone = {&mesh};
+  return boxes_of(alone)[0];
 }
 
 Box join(const Box& x, const Box& y) {
@@ -251,7 +289,8 @@ FileInterval Frame::to_files(double lower, double upper, double displacement,
 }
 
 StoragePlan store_in(const Frame& frame, const Mesh& mesh) {
-  return with_delta(store_in(frame, mesh, false), frame, mesh);
+  const std::array<const Mesh*, 1> alone = {&mesh};
+  return with_delta(store_in(frame, alone, false)[0], frame, mesh);
 }
 
 namespace {
@@ -287,22 +326,8 @@ void convert(const StoragePlan& stored, const Mesh& mesh, VertexRange range, flo
 }  // namespace
 
 void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low) {
-  if (stored.kept != nullptr) {
-    const size_t bytes = mesh.vertices.size() * 3 * sizeof(float);
-    copy_together(high, stored.kept->high.data(), bytes);
-    if (stored.has_low) copy_together(low, stored.kept->low.data(), bytes);
-    return;
-  }
-  for_each_range(mesh, [&](size_t, VertexRange range) { convert(stored, mesh, range, high, low); });
-}
-
-void keep_vertices(const Mesh& mesh, StoragePlan& stored) {
-  const size_t count = mesh.vertices.size(), floats = 3 * count;
-  auto made = std::make_shared<StoredVertices>();
-  made->high.resize(floats);
-  made->low.resize(stored.has_low ? floats : 0);
-  convert(stored, mesh, {0, count}, made->high.data(), made->low.data());
-  stored.kept = std::move(made);
+  const std::vector<VertexRange> ranges = ranges_of(mesh);
+  for_each_index(ranges.size(), [&](size_t i) { convert(stored, mesh, ranges[i], high, low); });
 }
 
 StoredPoint store_point(const Frame& frame, const glm::dvec3& point) {
@@ -321,29 +346,16 @@ StoredPoint store_point(const Frame& frame, const glm::dvec3& point) {
 }
 
 FramedPair frame_pair(const Mesh& a, const Mesh& b) {
-  const Box box_a = bounding_box(a), box_b = bounding_box(b), joint = join(box_a, box_b);
-  if (may_keep_origin(joint)) {
-    const Frame frame = frame_around(joint, glm::dvec3(0));
-    std::optional<StoragePlan> stored_a = store_exactly(frame, a);
-    std::optional<StoragePlan> stored_b = stored_a ? store_exactly(frame, b) : std::nullopt;
-    if (stored_b) {
-      return {frame, with_delta(*stored_a, frame, a), with_delta(*stored_b, frame, b), box_a,
-              box_b};
-    }
-  }
-  const Frame frame = frame_around(joint, middle_of(joint));
-  return {frame, store_in(frame, a), store_in(frame, b), box_a, box_b};
+  const std::array<const Mesh*, 2> meshes = {&a, &b};
+  const std::vector<Box> boxes = boxes_of(meshes);
+  const std::vector<StoragePlan> plans = plans_of(meshes, boxes);
+  return {plans[0].frame, plans[0], plans[1], boxes[0], boxes[1]};
 }
 
 FramedMesh frame_mesh(const Mesh& mesh) {
-  const Box box = bounding_box(mesh);
-  if (may_keep_origin(box)) {
-    const Frame frame = frame_around(box, glm::dvec3(0));
-    std::optional<StoragePlan> stored = store_exactly(frame, mesh);
-    if (stored) return {frame, with_delta(*stored, frame, mesh)};
-  }
-  const Frame frame = frame_around(box, middle_of(box));
-  return {frame, store_in(frame, mesh)};
+  const std::array<const Mesh*, 1> alone = {&mesh};
+  const StoragePlan plan = plans_of(alone, boxes_of(alone))[0];
+  return {plan.frame, plan};
 }
 
 }  // namespace vkh

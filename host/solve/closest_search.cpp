@@ -253,8 +253,7 @@ ClosestPoints find_closest_points(Runner& runner, const FramedB& b,
     const StoragePlan stored = store_in(frame, b.mesh);
     return laid(stored, others.emplace_back(runner.build({&b.mesh, &stored})));
   };
-  const StoragePlan own{
-      .frame = b.frame, .has_low = b.has_low, .displacement = b.displacement, .kept = {}};
+  const StoragePlan own{.frame = b.frame, .has_low = b.has_low, .displacement = b.displacement};
   return find_closest_points(laid(own, b.resident), lay, question);
 }
 

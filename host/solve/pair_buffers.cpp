@@ -73,12 +73,28 @@ void allocate_buffer(Buffer& buffer, const Device& device, VkDeviceSize bytes, M
 
 VkDeviceSize bytes_in_host(const Buffer& buffer) { return buffer.is_in_host() ? buffer.size() : 0; }
 
-void write(std::byte* to, const MeshData& m) {
-  const MeshBytes bytes(m);
-  write_vertices(*m.stored, *m.mesh, reinterpret_cast<float*>(to),
-                 reinterpret_cast<float*>(to + bytes.high));
-  const std::vector<glm::uvec3>& faces = m.mesh->faces;
-  copy_together(to + bytes.high + bytes.low, faces.data(), faces.size() * sizeof(faces[0]));
+// Writes A and B, or one of them, at once.
+void write_both(std::byte* to, const std::array<MeshData, 2>& meshes) {
+  struct Place {
+    const MeshData* data;
+    std::byte* to;
+  };
+  std::vector<Place> places;
+  for (const MeshData& m : meshes) {
+    if (m.mesh != nullptr) places.push_back({&m, to});
+    to += bytes_of(m);
+  }
+  const auto write_half = [&](size_t i) {
+    const auto [data, at] = places[i / 2];
+    const MeshBytes bytes(*data);
+    const std::vector<glm::uvec3>& faces = data->mesh->faces;
+    if (i % 2 == 0)
+      return write_vertices(*data->stored, *data->mesh, reinterpret_cast<float*>(at),
+                            reinterpret_cast<float*>(at + bytes.high));
+    copy_together(at + bytes.high + bytes.low, faces.data(), faces.size() * sizeof(faces[0]));
+  };
+  for_each_index(2 * places.size(), write_half,
+                 threads_for(bytes_of(meshes[0]) + bytes_of(meshes[1])));
 }
 
 }  // namespace
@@ -162,8 +178,7 @@ void PairBuffers::place_meshes(const MeshData& a, const MeshData& b, MemoryPolic
 
 void PairBuffers::write_meshes(const MeshData& a, const MeshData& b) {
   std::byte* const to = meshes_.mapped() != nullptr ? meshes_.mapped() : staging_.mapped();
-  if (bytes_of(a) > 0) write(to, a);
-  if (bytes_of(b) > 0) write(to + bytes_of(a), b);
+  write_both(to, {a, b});
 }
 
 // Chooses where B's BVH is or will be built.
@@ -253,9 +268,12 @@ void PairBuffers::take(VkhContext context, const RunInput& in, RunOutput& out,
   const VkDeviceSize bytes = allocate_workspace(workspace, hierarchy.scratchSize, in, budget);
   place_b(hierarchy, in, budget.policy);
   set_problem(in, bytes, bytes < workspace.maximum);
-  if (!is_laid_) write_meshes(in.a, b);
   out.workspace_bytes = bytes;
   out.host_memory_bytes = host_bytes(in);
+}
+
+void PairBuffers::write(const RunInput& in) {
+  if (!is_laid_) write_meshes(in.a, in.resident != nullptr ? MeshData{} : in.b);
 }
 
 // Returns the kept memory if it is large enough and not the run's own; otherwise new memory. The

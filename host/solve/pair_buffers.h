@@ -100,10 +100,11 @@ class PairBuffers {
   /// Takes memory from the pool, if there is one, which then outlives it.
   PairBuffers(const Device& device, MemoryPool* pool) : device_(device), pool_(pool) {}
 
-  /// Takes the pair: allocates its buffers and, if they are mapped, writes its meshes, unless the
-  /// pair is there already. Throws MemoryError if there is no room for it, DeviceError if the
-  /// device does not support it.
+  /// Takes the pair: allocates its buffers. Throws MemoryError if there is no room for it,
+  /// DeviceError if the device does not support it.
   void take(VkhContext context, const RunInput& input, RunOutput& output, MemoryBudget budget);
+  /// Writes the meshes of the pair that was taken, unless they are on the device already.
+  void write(const RunInput& input);
   /// Allocates and fills B's buffers, without A, and scratch for the build; returns the memory that
   /// its BVH will be built in.
   ResidentMesh allocate_resident(VkhContext context, const MeshData& b, MemoryPolicy policy);

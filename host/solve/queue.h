@@ -4,10 +4,8 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
-#include <optional>
 #include <vector>
 
-#include "vkhausdorff/frame.h"
 #include "vkhausdorff/stream.h"
 
 namespace vkh {
@@ -16,7 +14,6 @@ namespace vkh {
 struct WaitingPair {
   StreamPair pair;
   unsigned tries = 0;
-  std::optional<FramedPair> framed = {};  ///< nothing: its worker checks and frames the meshes
 };
 
 class PairQueue {

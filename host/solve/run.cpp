@@ -265,10 +265,30 @@ void Runner::allocate_buffers(std::span<const RunInput> inputs, std::vector<RunO
   });
 }
 
+// Records on one thread while others write the meshes: each takes an H200's host 0.1 ms a pair.
+VkCommandBuffer Runner::upload(std::span<const RunInput> inputs, const Submission& submission,
+                               std::vector<RunOutput>& outputs) {
+  const double start = now_ms();
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  const auto step = [&](size_t i) {
+    if (i == 0) {
+      commands = record(submission, outputs);
+    } else {
+      const size_t pair = submission.running[i - 1];
+      buffers_[pair]->write(inputs[pair]);
+    }
+  };
+  for_each_index(1 + submission.running.size(), step, 1 + threads_for(bytes_of(inputs)));
+  for (const size_t i : submission.running) outputs[i].upload_ms += now_ms() - start;
+  return commands;
+}
+
 // Submits, and reads the results. Returns how long that took, in milliseconds.
-double Runner::submit(const Submission& submission, std::vector<RunOutput>& outputs) {
+double Runner::submit(std::span<const RunInput> inputs, const Submission& submission,
+                      std::vector<RunOutput>& outputs) {
   const double submitted = now_ms();
-  submit_and_wait(record(submission, outputs));
+  submit_and_wait(submission.uploads ? upload(inputs, submission, outputs)
+                                     : record(submission, outputs));
   if (submission.waves > 0) {
     for (const size_t i : submission.running) buffers_[i]->read(outputs[i]);
   }
@@ -319,7 +339,7 @@ void Runner::hold(std::span<const RunInput> inputs, const UseHeld& use) {
       buffers_[i]->read(outputs[i]);
     } else {
       if (!build_first(inputs, first, outputs)) return;
-      submit(first, outputs);
+      submit(inputs, first, outputs);
     }
     pairs.push_back(held(i, outputs[i].report));
   }
@@ -350,7 +370,7 @@ bool Runner::build_first(std::span<const RunInput> inputs, Submission& submissio
   const bool on_cpu = device_.description().type == "cpu";
   if (!on_cpu || !submission.is_alone || buffers_[i]->mesh_b() == nullptr) return true;
   const uint32_t waves = std::exchange(submission.waves, 0);
-  submit(submission, outputs);
+  submit(inputs, submission, outputs);
   submission.waves = waves;
   submission.uploads = submission.builds = false;
   return inputs[i].advanced(outputs[i].report);
@@ -390,7 +410,7 @@ std::vector<RunOutput> Runner::run(std::span<const RunInput> inputs) {
     for (const size_t i : submission.running)
       submission.waves =
           std::min(submission.waves, std::max(inputs[i].wave_limit, 1u) - outputs[i].report.waves);
-    const double ms = submit(submission, outputs);
+    const double ms = submit(inputs, submission, outputs);
     submission.waves = next_waves(++submissions, submission.waves, ms);
     submission.uploads = submission.builds = submission.begins = false;
     std::erase_if(submission.running, is_over);

@@ -54,7 +54,10 @@ class Runner {
   void record_one(VkCommandBuffer commands, const Submission& submission);
   void record_together(VkCommandBuffer commands, const Submission& submission);
   VkCommandBuffer record(const Submission& submission, const std::vector<RunOutput>& outputs);
-  double submit(const Submission& submission, std::vector<RunOutput>& outputs);
+  VkCommandBuffer upload(std::span<const RunInput> inputs, const Submission& submission,
+                         std::vector<RunOutput>& outputs);
+  double submit(std::span<const RunInput> inputs, const Submission& submission,
+                std::vector<RunOutput>& outputs);
   void submit_and_wait(VkCommandBuffer commands);
   bool build_first(std::span<const RunInput> inputs, Submission& submission,
                    std::vector<RunOutput>& outputs);

@@ -272,7 +272,11 @@ void check_meshes(std::span<const PairView> pairs) {
     meshes.insert(&pair.a);
     if (pair.prepared == nullptr || &pair.b != &pair.prepared->mesh()) meshes.insert(&pair.b);
   }
-  for (const Mesh* mesh : meshes) check_mesh(*mesh);
+  const std::vector<const Mesh*> all(meshes.begin(), meshes.end());
+  uint64_t bytes = 0;
+  for (const Mesh* mesh : all) bytes += mesh_bytes(*mesh);
+  for_each_index(
+      all.size(), [&](size_t i) { check_mesh(*all[i]); }, threads_for(bytes));
 }
 
 // A caller's pair as it is stored: in a frame around both meshes, or in that of a prepared B.
@@ -494,7 +498,14 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
   const std::vector<SolveOptions> heard = options_of(pairs, options, ours);
   std::vector<SolveOptions> of_there = heard;
   for (SolveOptions& of_it : of_there) of_it.time_limit_s /= 2;
-  std::vector<Report> there = run(pairs, of_there);
+  std::vector<PairView> views(pairs.begin(), pairs.end());
+  std::vector<Framed> frames;  // for both directions
+  if (impl_ != nullptr) {
+    check_meshes(views);
+    frames = impl_->framed(views);
+    for (size_t i = 0; i < views.size(); ++i) views[i].framed = frames[i].pair.get();
+  }
+  std::vector<Report> there = run(views, of_there);
   const double elapsed_s = ms_since(start) / 1000;
   std::vector<SymmetricReport> both(pairs.size());
   std::vector<size_t> sought;
@@ -512,7 +523,7 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
     }
     sought.push_back(i);
     back.push_back({.a = b, .b = a, .kept = pairs[i].kept_back});
-    const FramedPair* const known = known_frame(pairs[i]);
+    const FramedPair* const known = known_frame(views[i]);
     if (known != nullptr && pairs[i].prepared == nullptr) {
       framed.push_back(known->reversed());
       back.back().framed = &framed.back();

@@ -8,7 +8,6 @@
 
 #include "host/base/float_environment.h"
 #include "host/solve/delivery.h"
-#include "host/solve/early_frames.h"
 #include "host/solve/worker.h"
 #include "vkhausdorff/error.h"
 
@@ -201,7 +200,6 @@ struct PairStream::Impl {
   const Clock::time_point start = Clock::now();
   const StreamOptions options;
   Delivery delivery;
-  EarlyFrames frames;
   PairQueue queue;
   WorkerShare share;
   std::atomic<size_t> delivered = 0;
@@ -222,10 +220,7 @@ PairStream::PairStream(StreamOptions options, std::function<void(StreamResult&&)
 PairStream::~PairStream() = default;
 
 bool PairStream::push(StreamPair pair) {
-  std::optional<FramedPair> framed;
-  if (impl_->options.devices[0] != kNative) framed = impl_->frames.of(pair);
-  if (impl_->queue.put({.pair = std::move(pair), .tries = 0, .framed = std::move(framed)}))
-    return true;
+  if (impl_->queue.put({.pair = std::move(pair)})) return true;
   impl_->check_alive();
   return false;
 }

@@ -86,13 +86,10 @@ void Worker::solve_all(Group& group) {
       p.pair = pair.number;
       return !share_.is_cancelled && (!pair.options.progress || pair.options.progress(p));
     };
-    // Without room for a prepared B the pair is not in B's frame.
-    const bool is_framed = one.framed && (!one.pair.shares_b || prepared[i] != nullptr);
     views.push_back({.a = *one.pair.a,
                      .b = *one.pair.b,
                      .prepared = prepared[i].get(),
-                     .options = &options.back(),
-                     .framed = is_framed ? &*one.framed : nullptr});
+                     .options = &options.back()});
   }
   std::vector<StreamResult> results(group.size());
   if (group[0].pair.symmetric) {

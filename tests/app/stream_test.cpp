@@ -11,7 +11,6 @@
 
 #include "host/answer/session.h"
 #include "host/solve/byte_budget.h"
-#include "host/solve/early_frames.h"
 #include "tests/shapes/shapes.h"
 #include "tests/support/solver_bench.h"
 #include "tests/verification/oracle/reference_solver.h"
@@ -125,56 +124,6 @@ TEST_CASE("a B that pairs share is prepared, and the answers are those of a prep
     const SymmetricReport both = std::move(solver.symmetrics({&view, 1})[0]);
     check_same(result.a_to_b, both.a_to_b);
     check_same(*result.b_to_a, both.b_to_a);
-  }
-}
-
-TEST_CASE("pairs are framed as they are pushed, and as their run would frame them") {
-  StreamPair pair;
-  pair.a = kept(translated(icosphere(1.0, 2), {0.1, 0, 0}));
-  pair.b = kept(icosphere(1.1, 3));
-  EarlyFrames early;
-  const auto check_frame = [&](const FramedPair& found, const FramedPair& expected) {
-    CHECK(glm::dvec3(found.frame.centre) == glm::dvec3(expected.frame.centre));
-    CHECK(found.frame.exponent == expected.frame.exponent);
-    CHECK(found.a.displacement == expected.a.displacement);
-    CHECK(found.a.has_low == expected.a.has_low);
-    CHECK(found.a.kept != nullptr);
-  };
-  const std::optional<FramedPair> alone = early.of(pair);
-  REQUIRE(alone);
-  check_frame(*alone, frame_pair(*pair.a, *pair.b));
-  CHECK(alone->b.kept != nullptr);
-  pair.shares_b = true;
-  const FramedMesh of_b = frame_mesh(*pair.b);
-  for (int i = 0; i < 2; ++i) {  // B's frame is found, and then known
-    const std::optional<FramedPair> shared = early.of(pair);
-    REQUIRE(shared);
-    FramedPair expected;
-    expected.frame = of_b.frame;
-    expected.a = store_in(of_b.frame, *pair.a);
-    check_frame(*shared, expected);
-  }
-}
-
-TEST_CASE("what cannot be framed as it is pushed is left to the run") {
-  EarlyFrames early;
-  StreamPair pair;
-  CHECK_FALSE(early.of(pair));
-  pair.a = kept(translated(icosphere(1.0, 2), {100, 0, 0}));
-  pair.b = kept(icosphere(1.1, 3));
-  CHECK(early.of(pair));
-  pair.shares_b = true;
-  CHECK_FALSE(early.of(pair));  // B's frame does not serve it
-  pair.shares_b = false;
-  pair.before = [](Solver&, const PreparedMesh*, StreamPair&) {};
-  CHECK_FALSE(early.of(pair));
-  pair.before = {};
-  Mesh broken = icosphere(1.0, 1);
-  broken.vertices[0].x = std::numeric_limits<double>::quiet_NaN();
-  pair.b = kept(std::move(broken));
-  for (const bool shares : {false, true}) {
-    pair.shares_b = shares;
-    CHECK_FALSE(early.of(pair));
   }
 }
 

@@ -130,6 +130,7 @@ class Race {
     const std::vector<Row> rows = read_manifest(args_.manifest, args_.choice);
     const int wrong = run_together(solver_, rows, groups, args_.common);
     std::printf("# %d reports wrong\n", wrong);
+    run_stream(args_.device, rows, groups, args_.common);
     return wrong > 0 ? kExitWrong : kExitClosed;
   }
 

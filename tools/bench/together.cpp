@@ -1,11 +1,13 @@
 #include "tools/bench/together.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <map>
 
 #include "tools/bench/table.h"
 #include "vkhausdorff/mesh_io.h"
+#include "vkhausdorff/stream.h"
 
 namespace vkh::bench {
 namespace {
@@ -123,6 +125,39 @@ int run_together(Solver& solver, const std::vector<Row>& rows, const Groups& gro
   }
   totals.print();
   return wrong;
+}
+
+void run_stream(const std::string& device, const std::vector<Row>& rows, const Groups& groups,
+                const SolveOptions& options) {
+  using Clock = std::chrono::steady_clock;
+  std::vector<StreamPair> pairs;
+  for (const Row& row : rows) {
+    StreamPair& pair = pairs.emplace_back();
+    pair.a = std::make_shared<Mesh>(read_mesh(row.file_a));
+    pair.b = std::make_shared<Mesh>(read_mesh(row.file_b));
+    pair.options = options;
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const StreamPair& x, const StreamPair& y) {
+    return x.a->faces.size() + x.b->faces.size() < y.a->faces.size() + y.b->faces.size();
+  });
+  const size_t passes = static_cast<size_t>(groups.repeat) * 6 + 1;
+  std::vector<Clock::time_point> ends(passes);
+  size_t delivered = 0;
+  StreamOptions asked;
+  asked.devices = {device};
+  asked.together = groups.size;
+  PairStream stream(asked, [&](const StreamResult&) {
+    if (++delivered % pairs.size() == 0) ends[delivered / pairs.size() - 1] = Clock::now();
+  });
+  for (size_t pass = 0; pass < passes; ++pass) {
+    for (const StreamPair& pair : pairs) stream.push(pair);
+  }
+  stream.finish();
+  std::vector<double> ms;
+  for (size_t pass = 1; pass < passes; ++pass)
+    ms.push_back(std::chrono::duration<double, std::milli>(ends[pass] - ends[pass - 1]).count());
+  std::printf("# stream: %.2f ms of wall time a pass of %zu pairs; GPU %.2f\n", median(ms),
+              pairs.size(), stream.times().gpu_s * 1000 / static_cast<double>(passes));
 }
 
 }  // namespace vkh::bench

@@ -1,5 +1,6 @@
 // vkh_bench --together N: pairs in groups of N like sizes, each alone and then all side by side
-// (Solver::distances), alternately; one CSV row per group.
+// (Solver::distances), alternately; one CSV row per group. Then all of them by a PairStream, pass
+// after pass: what a pass takes when the host's work for one group runs beside another's waves.
 #pragma once
 
 #include "tools/bench/manifest.h"
@@ -16,5 +17,10 @@ struct Groups {
 /// close.
 int run_together(Solver& solver, const std::vector<Row>& rows, const Groups& groups,
                  SolveOptions options);
+
+/// Prints the wall time of a pass of all pairs through a stream, `groups.size` a submission, from
+/// the end of a first pass. `device` is StreamOptions' selector.
+void run_stream(const std::string& device, const std::vector<Row>& rows, const Groups& groups,
+                const SolveOptions& options);
 
 }  // namespace vkh::bench

@@ -50,11 +50,6 @@ struct Frame {
   FileInterval to_files(double lower, double upper, double displacement, double farthest) const;
 };
 
-/// Three floats a vertex, as write_vertices() writes them.
-struct StoredVertices {
-  std::vector<float> high, low;  ///< `low` is empty without low parts
-};
-
 /// Describes how a mesh's vertices will be stored in a frame: each of three coordinates as a sum of
 /// two float32, high and low. write_vertices() writes them where they are needed, since a second
 /// copy of a large mesh takes time and memory.
@@ -64,14 +59,10 @@ struct StoragePlan {
   /// The largest distance of a stored vertex from the exact one, in frame units, rounded up: the
   /// displacement by storing plus Mesh::delta. h is 1-Lipschitz in both meshes.
   double displacement = 0;
-  /// The floats, where they were kept before they are needed; null: write_vertices() makes them.
-  std::shared_ptr<const StoredVertices> kept = {};
 };
 StoragePlan store_in(const Frame& frame, const Mesh& mesh);
 /// Writes three floats per vertex and reads none of them. Writes `low` only if has_low.
 void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low);
-/// Makes the floats now, on this thread, so that write_vertices() copies them.
-void keep_vertices(const Mesh& mesh, StoragePlan& stored);
 
 /// One point, stored as a mesh's vertices are.
 struct StoredPoint {

@@ -124,7 +124,7 @@ def coarse_claims(with_slack):
 
 def displacement_claims(more):
     """Displacements of 1 and 2^-60 along two axes: their sum in double is 1, their length is more."""
-    assert "out.displacement = worst * (1 + 0x1p-50);" in (ROOT / "host/mesh/frame.cpp").read_text()
+    assert "plan.displacement *= 1 + 0x1p-50;" in (ROOT / "host/mesh/frame.cpp").read_text()
     x, y = 1.0, 2.0**-60
     worst = Fraction(x + y) * (1 + more)
     return worst * worst >= Fraction(x) ** 2 + Fraction(y) ** 2
