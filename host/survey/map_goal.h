@@ -3,11 +3,10 @@
 
 #include <cmath>
 #include <optional>
-#include <span>
 
-#include "host/solve/cells.h"
 #include "host/survey/lengths.h"
 #include "host/survey/wave_goals.h"
+#include "host/survey/wave_survey.h"
 
 namespace vkh {
 
@@ -52,11 +51,12 @@ class MapGoals : public WaveGoals {
   bool is_nearly_met_ = false;
 };
 
-/// The map of all cells, which `options` ask for. A has an area, or is points.
-CellMap map_of(const CellsRead& all, const Areas& areas, const SurveyedPair& pair,
+/// The map of all cells, which `options` ask for, with the sides that were found. A has an area, or
+/// is points.
+CellMap map_of(WaveSurvey& waves, const Areas& areas, const SurveyedPair& pair,
                const SurveyOptions& options);
-/// Adds the sides of the survey's cells, by their classes, to a map of all of them.
-void add_sides(std::span<const uint32_t> classes, CellMap& map);
+/// Adds sides that were found after the map was made.
+void add_sides(WaveSurvey& waves, CellMap& map);
 
 /// Whether MapOptions::sides_if_cheap asks for sides of this B: it is small, has no open edge, and
 /// neither mesh stands for any triangulation of its polygons.

@@ -191,9 +191,8 @@ void Surveying::add_normals(SurveyResult& result) {
 }
 
 void Surveying::add_map(SurveyResult& result) {
-  const CellsRead all = waves_->read();
-  CellMap map = map_of(all, areas_, pair_, options_);
-  if (sides_) add_sides(all.classes, map);
+  CellMap map = map_of(*waves_, areas_, pair_, options_);
+  map.has_sides = sides_.has_value();
   if (has_cheap_sides_) add_cheap_sides(map);
   result.map = std::make_shared<const CellMap>(std::move(map));
 }
@@ -203,7 +202,7 @@ void Surveying::add_cheap_sides(CellMap& map) {
   const Sides sides(pair_, [this] { return meter_.sides_go_on(); });
   if (!sides.is_solid()) return;
   if (!waves_->find_sides(sides.search(), near_zero(pair_, map, waves_->reached()))) return;
-  add_sides(waves_->read().classes, map);
+  add_sides(*waves_, map);
   map.inside_out = sides.shells().inside_out();
 }
 

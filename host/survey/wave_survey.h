@@ -53,7 +53,6 @@ class WaveSurvey : public AreaDistances {
   /// The same for the cells of each face in one set of classes, and in the other.
   std::vector<float> faces(uint32_t reached_classes, uint32_t highest_classes);
   CellsRead read(const CellRange& some);
-  CellsRead read() { return read({0, static_cast<uint32_t>(count())}); }
   /// An upper bound of all distances, in the frame.
   double farthest() const { return std::ldexp(1.0, unit_ - 127); }
 

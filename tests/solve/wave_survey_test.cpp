@@ -225,7 +225,7 @@ TEST_CASE("a tally is what the cells say, as near as floats tell, and outside of
       constexpr double kAny = std::numeric_limits<double>::infinity();
       const Tallied tallied = waves.tally({at, Threshold{kAny, kAny}});
       const auto& [shares, moments] = std::pair(tallied.shares, tallied.moments);
-      const CellsRead cells = waves.read();
+      const CellsRead cells = waves.read({0, static_cast<uint32_t>(waves.count())});
       CHECK(cells.cells.size() > a.faces.size());
       for (size_t k = 0; k < at.size(); k += 7) {
         const Said said = within(cells, weights, at[k]);
