@@ -8,6 +8,7 @@
 
 #include "host/base/decimal.h"
 #include "host/base/parse_json.h"
+#include "host/show/deflate.h"
 #include "host/show/escape.h"
 #include "host/show/page_assets.h"
 #include "host/show/page_figures.h"

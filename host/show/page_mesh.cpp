@@ -213,24 +213,38 @@ Shown shown_of(const Mesh& mesh, size_t most_faces) {
 
 namespace {
 
+// Sorts blocks at once, and then merges two neighbours each.
+void sort_together(std::vector<uint64_t>& keys) {
+  const auto at = [&](size_t i) {
+    return keys.begin() + static_cast<std::ptrdiff_t>(std::min(i, keys.size()));
+  };
+  for_each_block(keys.size(),
+                 [&](size_t, size_t begin, size_t end) { std::sort(at(begin), at(end)); });
+  for (size_t sorted = kBlock; sorted < keys.size(); sorted *= 2) {
+    for_each_range_of(2 * sorted, keys.size(), [&](size_t, size_t begin, size_t end) {
+      std::inplace_merge(at(begin), at(begin + sorted), at(end));
+    });
+  }
+}
+
 // Vertices that a page cannot tell apart are one.
 class Corners {
  public:
-  explicit Corners(const Place& place) : place_(place) {}
+  explicit Corners(size_t faces) : keys_(3 * faces) {}
 
-  void add(const glm::dvec3& in_place) {
+  // Each face's once, on any thread.
+  void set(size_t face, size_t corner, const glm::dvec3& in_place) {
     uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis)
       key = key << 16 |
             static_cast<uint64_t>(std::lround(std::clamp(in_place[axis], 0.0, 1.0) * 65535));
-    keys_.push_back(key);
+    keys_[3 * face + corner] = key;
   }
-  const Place& place() const { return place_; }
 
   // Makes the vertices, and faces of three corners each.
   void put_into(ShownMesh& shown) const {
     std::vector<uint64_t> known = keys_;
-    std::sort(known.begin(), known.end());
+    sort_together(known);
     known.erase(std::unique(known.begin(), known.end()), known.end());
     for (const uint64_t key : known)
       shown.vertices.push_back({static_cast<uint16_t>(key >> 32), static_cast<uint16_t>(key >> 16),
@@ -247,22 +261,25 @@ class Corners {
   }
 
  private:
-  Place place_;
   std::vector<uint64_t> keys_;
 };
 
 ShownMesh mesh_of_cells(const Mesh& mesh, const std::vector<ShownCell>& cells) {
   ShownMesh shown{.place = place_of(mesh)};
-  Corners corners(shown.place);
-  for (const ShownCell& cell : cells) {
-    const glm::uvec3 f = mesh.faces[cell.face];
-    const glm::dvec3 a = shown.place.unit(mesh.vertices[f.x]);
-    const glm::dvec3 b = shown.place.unit(mesh.vertices[f.y]);
-    const glm::dvec3 c = shown.place.unit(mesh.vertices[f.z]);
-    for (const glm::dvec3& w : weights_of({.corners = cell.corners}))
-      corners.add(w.x * a + w.y * b + w.z * c);
-    shown.values.push_back(cell.value);
-  }
+  Corners corners(cells.size());
+  shown.values.resize(cells.size());
+  for_each_block(cells.size(), [&](size_t, size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i) {
+      const glm::uvec3 f = mesh.faces[cells[i].face];
+      const glm::dvec3 a = shown.place.unit(mesh.vertices[f.x]);
+      const glm::dvec3 b = shown.place.unit(mesh.vertices[f.y]);
+      const glm::dvec3 c = shown.place.unit(mesh.vertices[f.z]);
+      size_t corner = 0;
+      for (const glm::dvec3& w : weights_of({.corners = cells[i].corners}))
+        corners.set(i, corner++, w.x * a + w.y * b + w.z * c);
+      shown.values[i] = cells[i].value;
+    }
+  });
   corners.put_into(shown);
   return shown;
 }
@@ -309,9 +326,11 @@ ShownMesh decimated_mesh(const Mesh& mesh, const CellMap& map, const drawing::Ma
                          size_t most_faces) {
   const Shown few = shown_of(mesh, most_faces);
   ShownMesh shown{.place = few.place, .is_decimated = true};
-  Corners corners(few.place);
-  for (const glm::uvec3& f : few.faces) {
-    for (const uint32_t v : {f.x, f.y, f.z}) corners.add(few.vertices[v]);
+  Corners corners(few.faces.size());
+  for (size_t i = 0; i < few.faces.size(); ++i) {
+    const glm::uvec3& f = few.faces[i];
+    size_t corner = 0;
+    for (const uint32_t v : {f.x, f.y, f.z}) corners.set(i, corner++, few.vertices[v]);
   }
   corners.put_into(shown);
   std::vector<Worst> worst(few.faces.size()), left_out(map.max_distance ? few.faces.size() : 0);

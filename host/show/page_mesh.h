@@ -50,9 +50,6 @@ struct ShownMesh {
 ShownMesh shown_mesh(const Mesh& mesh, const CellMap& map, const drawing::MapScale& scale,
                      size_t most_faces);
 
-/// Returns whether packed meshes are deflated here; otherwise they are stored.
-bool can_deflate();
-
 /// Streams of bytes, one after the other, each the same byte of all its numbers:
 /// three of corners, by faces: the number of known vertices less the corner's number;
 /// two of positions, by vertices, each coordinate less the one before;

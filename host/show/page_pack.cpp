@@ -5,14 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <new>
-#include <stdexcept>
 #include <string_view>
-#include <utility>
-#ifdef VKH_HAS_ZLIB
-#include <zlib.h>
-#endif
 
+#include "host/show/deflate.h"
 #include "host/show/page_mesh.h"
 
 namespace vkh {
@@ -131,49 +126,6 @@ double farthest_of(const ShownMesh& shown) {
   return most > 0 ? most : 1;
 }
 
-#ifdef VKH_HAS_ZLIB
-
-/// Deflates parts of at most `bytes` in all to one text, each part by a strategy of its own.
-class Deflating {
- public:
-  Deflating(size_t bytes, int level, int strategy) : level_(level) {
-    constexpr int kWindow = 15, kMemory = 8;  // zlib's own
-    constexpr size_t kOfParts = 1024;         // more than the end of a part takes
-    if (deflateInit2(&stream_, level, Z_DEFLATED, kWindow, kMemory, strategy) != Z_OK)
-      throw std::bad_alloc();
-    out_.resize(deflateBound(&stream_, static_cast<uLong>(bytes)) + kOfParts);
-    stream_.next_out = reinterpret_cast<Bytef*>(out_.data());
-    stream_.avail_out = static_cast<uInt>(out_.size());
-  }
-  Deflating(const Deflating&) = delete;
-  Deflating& operator=(const Deflating&) = delete;
-  ~Deflating() { deflateEnd(&stream_); }
-
-  /// `next`: the strategy for the next part.
-  void add(std::string_view bytes, int next) {
-    run(bytes, Z_NO_FLUSH);
-    deflateParams(&stream_, level_, next);
-  }
-  std::string finished(std::string_view bytes) {
-    if (run(bytes, Z_FINISH) != Z_STREAM_END) throw std::logic_error("a mesh was not deflated");
-    out_.resize(stream_.total_out);
-    return std::move(out_);
-  }
-
- private:
-  int run(std::string_view bytes, int flush) {
-    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream_.avail_in = static_cast<uInt>(bytes.size());
-    return deflate(&stream_, flush);
-  }
-
-  const int level_;
-  z_stream stream_{};
-  std::string out_;
-};
-
-constexpr int kQuick = 3, kThorough = 6;
-
 /// Whether a code for each byte makes bytes about as short as a search for what repeats, which
 /// takes eight times as long. A sample tells.
 bool is_noise(std::string_view bytes) {
@@ -181,39 +133,24 @@ bool is_noise(std::string_view bytes) {
   constexpr double kAbout = 1.03;
   std::string sample;
   for (size_t i = 0; i < kPieces; ++i) sample += bytes.substr(bytes.size() / kPieces * i, kPiece);
-  const auto size = [&](int strategy) {
-    return static_cast<double>(Deflating(sample.size(), kQuick, strategy).finished(sample).size());
+  const auto size = [&](Deflate how) {
+    return static_cast<double>(deflated(std::array{DeflatePart{sample, how}}).size());
   };
-  return size(Z_HUFFMAN_ONLY) <= kAbout * size(Z_DEFAULT_STRATEGY);
+  return size(Deflate::kCodes) <= kAbout * size(Deflate::kQuick);
 }
 
-#endif
-
-/// Deflates in zlib's format. Behind the first `alike` bytes are differences of distances, in which
-/// little repeats unless a mesh does.
+/// Behind the first `alike` bytes are differences of distances, in which little repeats unless a
+/// mesh does.
 std::string deflated(const std::string& bytes, size_t alike) {
-#ifdef VKH_HAS_ZLIB
+  if (!can_deflate()) return bytes;
   const std::string_view first = std::string_view(bytes).substr(0, alike);
   const std::string_view rest = std::string_view(bytes).substr(alike);
-  const bool has_noise = is_noise(rest);
-  Deflating all(bytes.size(), has_noise ? kQuick : kThorough, Z_DEFAULT_STRATEGY);
-  if (has_noise) all.add(first, Z_HUFFMAN_ONLY);
-  return all.finished(has_noise ? rest : std::string_view(bytes));
-#else
-  (void)alike;
-  return bytes;
-#endif
+  if (!is_noise(rest)) return deflated(std::array{DeflatePart{bytes, Deflate::kThorough}});
+  return deflated(
+      std::array{DeflatePart{first, Deflate::kQuick}, DeflatePart{rest, Deflate::kCodes}});
 }
 
 }  // namespace
-
-bool can_deflate() {
-#ifdef VKH_HAS_ZLIB
-  return true;
-#else
-  return false;
-#endif
-}
 
 PackedMesh packed(const ShownMesh& shown) {
   const CornerCodes corners = corners_of(shown);
