@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -60,7 +61,7 @@ void check_verified(const Answer& answer) {
   }
 }
 
-/// A running question, with its device, which is destroyed only after the answer is printed.
+/// A running question, with its device, which is destroyed only once the answer is printed.
 struct Asked {
   Asked(const Question& asked, const Stop& until)
       : question(asked),
@@ -194,9 +195,12 @@ auto or_tell(const Words& words, const F& work) {
 
 int run_pair(const Request& asked, const Words& words, const Stop& stop) {
   auto [destinations, pictures] = or_tell(words, [&] { return places_of(asked); });
-  const Answered done = answer_for(asked.question, stop, destinations);
+  Answered done = answer_for(asked.question, stop, destinations);
   std::string not_written = destinations.write(done.answer);
+  // NVIDIA's driver takes some 40 ms to destroy a device: pictures are drawn meanwhile.
+  std::future<void> closing = std::async([&done] { done.asked.reset(); });
   const std::string not_drawn = pictures.write(done.answer, done.a, done.b);
+  closing.get();
   if (!not_drawn.empty()) not_written += (not_written.empty() ? "" : "; ") + not_drawn;
   check_printed();
   check_verified(done.answer);
