@@ -1,7 +1,6 @@
 // Values by key. The first thread that asks for a value makes it, once.
 #pragma once
 
-#include <chrono>
 #include <future>
 #include <map>
 #include <mutex>
@@ -33,16 +32,6 @@ class MadeOnce {
   void forget(const Key& key) {
     const std::lock_guard lock(mutex_);
     values_.erase(key);
-  }
-  /// Forgets the values for which `is` returns true. No value may be an error.
-  template <class Is>
-  void forget_where(const Is& is) {
-    const std::lock_guard lock(mutex_);
-    std::erase_if(values_, [&](const auto& one) {
-      const bool is_made =
-          one.second.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-      return is_made && is(one.second.get());
-    });
   }
 
  private:

@@ -41,10 +41,3 @@ TEST_CASE("an error is thrown to all who ask, until the value is forgotten") {
   values.forget(1);
   CHECK(values.get(1, [] { return 5; }) == 5);
 }
-
-TEST_CASE("values are forgotten by what they are") {
-  MadeOnce<int, int> values;
-  for (int i = 0; i < 4; ++i) values.get(i, [&] { return i; });
-  values.forget_where([](int value) { return value % 2 == 1; });
-  for (int i = 0; i < 4; ++i) CHECK(values.get(i, [] { return 9; }) == (i % 2 == 1 ? 9 : i));
-}
