@@ -6,7 +6,6 @@
 #include <cstring>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -20,8 +19,8 @@ namespace {
 
 std::atomic<size_t> thread_limit = 0;
 
-/// Threads that wait for work and never end: waking one takes an H200's host some 30 us, and
-/// starting one a tenth of a millisecond and more (docs/log/startup.md).
+/// Threads that wait for work and never end: waking them costs less than starting new ones
+/// (docs/log/startup.md).
 class Helpers {
  public:
   /// Calls work(), which throws nothing, here and on `most` helpers, or on fewer if there are none.
@@ -56,7 +55,7 @@ class Helpers {
     try {
       for (; idle_ < open_ && hired_ < kMostHelpers; ++idle_, ++hired_)
         leave_thread(std::thread([this] { help(); }));
-    } catch (const std::system_error&) {  // goes on with fewer
+    } catch (...) {  // goes on with fewer
     }
   }
 

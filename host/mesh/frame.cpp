@@ -113,15 +113,19 @@ struct VertexRange {
 
 using Meshes = std::span<const Mesh* const>;
 
-// The ranges of a mesh's vertices that are each worth waking a thread: 70 us where coordinates have
-// low parts.
+// The ranges that threads share, of 70 us where coordinates have low parts.
 std::vector<VertexRange> ranges_of(const Mesh& mesh) {
-  constexpr size_t kVerticesOfThread = 1 << 11;
-  const size_t count = mesh.vertices.size(),
-               ranges = std::max<size_t>(count / kVerticesOfThread, 1);
+  constexpr size_t kVertices = 1 << 11;
+  const size_t count = mesh.vertices.size(), ranges = std::max<size_t>(count / kVertices, 1);
   std::vector<VertexRange> all;
   for (size_t i = 0; i < ranges; ++i) all.push_back({count * i / ranges, count * (i + 1) / ranges});
   return all;
+}
+
+size_t threads_of(Meshes meshes) {
+  uint64_t bytes = 0;
+  for (const Mesh* mesh : meshes) bytes += mesh->vertices.size() * sizeof(mesh->vertices[0]);
+  return threads_for(bytes);
 }
 
 // Calls work(mesh, range) for all ranges of all meshes, several at once. Returns what it returned,
@@ -133,10 +137,11 @@ std::vector<std::pair<size_t, Result>> over_ranges(Meshes meshes, const F& work)
     for (const VertexRange range : ranges_of(*meshes[i])) ranges.emplace_back(i, range);
   }
   std::vector<std::pair<size_t, Result>> found(ranges.size());
-  for_each_index(ranges.size(), [&](size_t i) {
+  const auto take = [&](size_t i) {
     const auto [mesh, range] = ranges[i];
     found[i] = {mesh, work(*meshes[mesh], range)};
-  });
+  };
+  for_each_index(ranges.size(), take, threads_of(meshes));
   return found;
 }
 
@@ -327,7 +332,10 @@ void convert(const StoragePlan& stored, const Mesh& mesh, VertexRange range, flo
 
 void write_vertices(const StoragePlan& stored, const Mesh& mesh, float* high, float* low) {
   const std::vector<VertexRange> ranges = ranges_of(mesh);
-  for_each_index(ranges.size(), [&](size_t i) { convert(stored, mesh, ranges[i], high, low); });
+  const std::array<const Mesh*, 1> alone = {&mesh};
+  for_each_index(
+      ranges.size(), [&](size_t i) { convert(stored, mesh, ranges[i], high, low); },
+      threads_of(alone));
 }
 
 StoredPoint store_point(const Frame& frame, const glm::dvec3& point) {

@@ -20,8 +20,12 @@ namespace {
 // time of stb's own deflate, and gives fewer bytes. stb frees them by free().
 unsigned char* deflated_rows(unsigned char* rows, int size, int* packed_size, int) {
   const std::string_view text(reinterpret_cast<const char*>(rows), static_cast<size_t>(size));
-  const std::string packed =
-      vkh::deflated(std::array{vkh::DeflatePart{text, vkh::Deflate::kQuick}});
+  std::string packed;
+  try {
+    packed = vkh::deflated(std::array{vkh::DeflatePart{text, vkh::Deflate::kQuick}});
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
   auto* bytes = static_cast<unsigned char*>(std::malloc(packed.size()));
   if (bytes == nullptr) return nullptr;
   std::memcpy(bytes, packed.data(), packed.size());

@@ -1,5 +1,5 @@
 // A text is cut into pieces, which are deflated apart and joined, as pigz does: each but the last
-// ends at a byte, and may repeat what is in the 32 KiB before it.
+// ends at a byte, and may repeat what is in the 32 KiB of its part before it.
 #include "host/show/deflate.h"
 
 #include <algorithm>
@@ -49,7 +49,8 @@ class RawStream {
     stream_.avail_in = static_cast<uInt>(bytes.size());
     stream_.next_out = reinterpret_cast<Bytef*>(out.data());
     stream_.avail_out = static_cast<uInt>(out.size());
-    if (deflate(&stream_, flush) != (flush == Z_FINISH ? Z_STREAM_END : Z_OK))
+    const int found = deflate(&stream_, flush);
+    if (found != (flush == Z_FINISH ? Z_STREAM_END : Z_OK) || stream_.avail_out == 0)
       throw std::logic_error("a text was not deflated");
     out.resize(stream_.total_out);
     return out;

@@ -91,8 +91,8 @@ struct RunOutput {
   /// If asked for: the closed part of each face of A, then the open part of each; 2^40 is a whole
   /// face.
   std::vector<uint64_t> areas;
-  double upload_ms =
-      0;  ///< on the host: allocating buffers and copying into them, for all runs of a submission
+  double upload_ms = 0;  ///< on the host, for all runs of a submission: allocating buffers, copying
+                         ///< into them, and recording beside that
 };
 
 class PairBuffers {

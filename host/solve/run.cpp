@@ -250,8 +250,8 @@ void Runner::arrange(std::span<const RunInput> inputs) {
   }
 }
 
-// Allocates in the order of the pairs if memory is scarce: which pair gets what must not depend on
-// threads.
+// Allocates several at once, since a driver takes tenths of milliseconds for each; in the order of
+// the pairs if memory is scarce: which pair gets what must not depend on threads.
 void Runner::allocate_buffers(std::span<const RunInput> inputs, std::vector<RunOutput>& outputs) {
   const VkDeviceSize share = device_.description().memory_bytes / 4 / inputs.size();
   with_buffers(inputs.size(), [&](MemoryPolicy policy) {
@@ -265,7 +265,8 @@ void Runner::allocate_buffers(std::span<const RunInput> inputs, std::vector<RunO
   });
 }
 
-// Records on one thread while others write the meshes: each takes an H200's host 0.1 ms a pair.
+// Records on one thread while others write the meshes, if these are large: each takes an H200's
+// host 0.1 ms a pair.
 VkCommandBuffer Runner::upload(std::span<const RunInput> inputs, const Submission& submission,
                                std::vector<RunOutput>& outputs) {
   const double start = now_ms();
@@ -278,7 +279,7 @@ VkCommandBuffer Runner::upload(std::span<const RunInput> inputs, const Submissio
       buffers_[pair]->write(inputs[pair]);
     }
   };
-  for_each_index(1 + submission.running.size(), step, 1 + threads_for(bytes_of(inputs)));
+  for_each_index(1 + submission.running.size(), step, threads_for(bytes_of(inputs)));
   for (const size_t i : submission.running) outputs[i].upload_ms += now_ms() - start;
   return commands;
 }
@@ -286,9 +287,10 @@ VkCommandBuffer Runner::upload(std::span<const RunInput> inputs, const Submissio
 // Submits, and reads the results. Returns how long that took, in milliseconds.
 double Runner::submit(std::span<const RunInput> inputs, const Submission& submission,
                       std::vector<RunOutput>& outputs) {
+  const VkCommandBuffer commands =
+      submission.uploads ? upload(inputs, submission, outputs) : record(submission, outputs);
   const double submitted = now_ms();
-  submit_and_wait(submission.uploads ? upload(inputs, submission, outputs)
-                                     : record(submission, outputs));
+  submit_and_wait(commands);
   if (submission.waves > 0) {
     for (const size_t i : submission.running) buffers_[i]->read(outputs[i]);
   }

@@ -505,7 +505,12 @@ std::vector<SymmetricReport> Solver::symmetrics(std::span<const PairView> pairs,
     frames = impl_->framed(views);
     for (size_t i = 0; i < views.size(); ++i) views[i].framed = frames[i].pair.get();
   }
+  const double framing_ms = ms_since(start);
   std::vector<Report> there = run(views, of_there);
+  for (Report& report : there) {
+    report.times.upload_ms += framing_ms;
+    report.times.wall_ms += framing_ms;
+  }
   const double elapsed_s = ms_since(start) / 1000;
   std::vector<SymmetricReport> both(pairs.size());
   std::vector<size_t> sought;

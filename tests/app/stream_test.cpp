@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <limits>
 #include <map>
 #include <mutex>
 #include <thread>

@@ -11,7 +11,8 @@
 //             [--memory BYTES] [--sort-from N] [--disable a,b] [--enable a,b] [--plain]
 //             [--together N] [--not-robust] [--not-mapped]
 //
-// With --together, the default preset alone: each pair alone and N side by side, a row per group.
+// With --together, the default preset alone: each pair alone and N side by side, a row per group;
+// then all pairs by a stream, N a submission.
 #include <chrono>
 #include <cstdio>
 #include <map>

@@ -4,8 +4,6 @@
 
 #include <array>
 #include <glm/vec3.hpp>
-#include <memory>
-#include <vector>
 
 #include "vkhausdorff/length.h"
 #include "vkhausdorff/mesh.h"
