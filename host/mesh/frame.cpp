@@ -222,6 +222,7 @@ std::vector<Box> boxes_of(Meshes meshes) {
   for (const auto& [mesh, box] : over_ranges<Box>(meshes, box_of))
     boxes[mesh] = boxes[mesh] ? join(*boxes[mesh], box) : box;
   std::vector<Box> all;
+  all.reserve(boxes.size());
   for (const std::optional<Box>& box : boxes) all.push_back(*box);
   return all;
 }

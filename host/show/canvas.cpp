@@ -28,7 +28,7 @@ unsigned char* deflated_rows(unsigned char* rows, int size, int* packed_size, in
   }
   auto* bytes = static_cast<unsigned char*>(std::malloc(packed.size()));
   if (bytes == nullptr) return nullptr;
-  std::memcpy(bytes, packed.data(), packed.size());
+  std::copy(packed.begin(), packed.end(), bytes);
   *packed_size = static_cast<int>(packed.size());
   return bytes;
 }
