@@ -98,6 +98,12 @@ void call_in_forks(void (*renew)()) { pthread_atfork(nullptr, nullptr, renew); }
 
 void end_process(int code) { std::_Exit(code); }
 
-void leave_thread(std::thread thread) { thread.detach(); }
+// Linux shows the name: such threads can be told from those that must end.
+void leave_thread(std::thread thread) {
+#ifdef __linux__
+  pthread_setname_np(thread.native_handle(), "vkh-left");
+#endif
+  thread.detach();
+}
 
 }  // namespace vkh
