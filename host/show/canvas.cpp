@@ -300,8 +300,8 @@ std::string encode_png(const Image& image) {
   std::vector<uint8_t> rgb(kChannels * image.width * image.height);
   for (size_t i = 0; i < size_t{image.width} * image.height; ++i)
     std::copy_n(&image.rgba[4 * i], kChannels, &rgb[kChannels * i]);
-  // Of the five filters of rows Paeth's alone gives about as few bytes as the best for each row,
-  // which stb seeks by trying all.
+  // Paeth's filter alone gives about as few bytes as the best of five for each row, which stb finds
+  // by trying all.
   constexpr int kPaeth = 4;
   [[maybe_unused]] static const int filter = stbi_write_force_png_filter = kPaeth;
   const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);

@@ -232,7 +232,7 @@ class Corners {
  public:
   explicit Corners(size_t faces) : keys_(3 * faces) {}
 
-  // Each face's once, on any thread.
+  // Call it once for each corner, on any thread.
   void set(size_t face, size_t corner, const glm::dvec3& in_place) {
     uint64_t key = 0;
     for (int axis = 0; axis < 3; ++axis)

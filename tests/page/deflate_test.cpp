@@ -1,4 +1,4 @@
-// Texts deflated in pieces, inflated by zlib.
+// Inflates by zlib what was deflated in pieces.
 #include "host/show/deflate.h"
 
 #include <doctest/doctest.h>
@@ -25,7 +25,7 @@ std::string inflated(const std::string& text, size_t bytes) {
   return out;
 }
 
-// Letters of an alphabet of `kinds`, in words that come again.
+// Returns letters of an alphabet of `kinds`, in words that come again.
 std::string letters(size_t count, int kinds) {
   std::mt19937 random(static_cast<unsigned>(count) + static_cast<unsigned>(kinds));
   std::string text;

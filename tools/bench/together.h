@@ -1,6 +1,7 @@
 // vkh_bench --together N: pairs in groups of N like sizes, each alone and then all side by side
-// (Solver::distances), alternately; one CSV row per group. Then all of them by a PairStream, pass
-// after pass: what a pass takes when the host's work for one group runs beside another's waves.
+// (Solver::distances), alternately; one CSV row per group. Then runs all of them through a
+// PairStream, pass after pass, and prints what a pass takes when the host's work for one group runs
+// beside another's waves.
 #pragma once
 
 #include "tools/bench/manifest.h"
