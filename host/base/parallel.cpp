@@ -27,13 +27,15 @@ class Helpers {
   /// Returns when all of them have ended. A helper that comes too late does not call it.
   void share(const std::function<void()>& work, size_t most) {
     Job job(work, most);
+    size_t waiting = 0;
     {
       const std::lock_guard lock(mutex_);
       jobs_.push_back(&job);
       open_ += most;
       hire();
+      waiting = idle_;
     }
-    for (size_t i = 0; i < most; ++i) has_work_.notify_one();
+    for (size_t i = 0; i < std::min(most, waiting); ++i) has_work_.notify_one();
     work();
     std::unique_lock lock(mutex_);
     std::erase(jobs_, &job);
@@ -50,10 +52,12 @@ class Helpers {
     std::condition_variable left;
   };
 
+  // Loops that run side by side share the helpers: three workers of a batch with 15 each took 16
+  // cores from its readers (docs/log/startup.md).
   void hire() {
-    constexpr size_t kMostHelpers = 63;
+    const size_t most = thread_count() - 1;
     try {
-      for (; idle_ < open_ && hired_ < kMostHelpers; ++idle_, ++hired_)
+      for (; idle_ < open_ && hired_ < most; ++idle_, ++hired_)
         leave_thread(std::thread([this] { help(); }));
     } catch (...) {  // goes on with fewer
     }

@@ -18,8 +18,8 @@ size_t threads_for(uint64_t bytes);
 
 /// Calls work(0) to work(count - 1), in any order and several at once, here and on other threads if
 /// any are available, on `threads` in all. After all calls have ended, throws the exception of the
-/// least index that threw, no matter which came first. The other threads wait for more work until
-/// the process ends.
+/// least index that threw, no matter which came first. The other threads, fewer than
+/// thread_count() for all calls together, wait for more work until the process ends.
 void for_each_index(size_t count, const std::function<void(size_t)>& work,
                     size_t threads = thread_count());
 

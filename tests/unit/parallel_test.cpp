@@ -21,8 +21,16 @@ namespace {
 
 constexpr size_t kThreads = 4;
 
+// As many threads as there would be on four cores, since there are no more helpers than other
+// cores.
+struct FourCores {
+  FourCores() { limit_threads(kThreads); }
+  ~FourCores() { limit_threads(0); }
+};
+
 // Waits in each of kThreads items until all have begun: no thread has two of them.
 std::set<std::thread::id> threads_of_one_call() {
+  const FourCores limit;
   std::mutex mutex;
   std::set<std::thread::id> threads;
   std::atomic<size_t> begun = 0;
