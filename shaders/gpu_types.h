@@ -525,9 +525,9 @@ struct SurveyPlan {
   float far;           // the first of them that reaches it is wanted
   // Cells of these classes have a mean that scores, and those of these may be on either side.
   uint mean_classes, either_side;
-  // A map scores a cell by its width over `map_step`, if it has more than `map_area` of the area
-  // and is not all farther than `map_most`. 0: there is no map.
-  float map_step, map_area, map_most;
+  // A map scores a cell by its width over `map_step`, if it has more than `map_area` of the area or
+  // an edge longer than `map_length`, and is not all farther than `map_most`. 0: there is no map.
+  float map_step, map_area, map_length, map_most;
   // A cell is in the way of its face where it has points that may be farther than `face_within`,
   // and by more than `face_tolerance` than what the face is known to reach, unless that is more
   // than `face_beyond`. 0: faces have no goal.

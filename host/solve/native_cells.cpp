@@ -192,6 +192,15 @@ void NativeCells::begin(std::span<const uint64_t> weights, float farthest) {
   parts_ = 1;
 }
 
+lib::Root NativeCells::root_of(uint32_t face) const {
+  const auto vertex = [this](uint32_t number) {
+    const gpu::Vertex v = pair_.vertex_of_a(number);
+    return lib::Two3{{v.hi.x, v.hi.y, v.hi.z}, {v.lo.x, v.lo.y, v.lo.z}};
+  };
+  const glm::uvec3& f = a_.faces[face];
+  return lib::make_root(vertex(f.x), vertex(f.y), vertex(f.z));
+}
+
 // Returns the bin, 0 for none: as survey_score.comp does.
 uint32_t NativeCells::score_one(const gpu::SurveyPlan& plan, uint32_t place, bool& is_stuck) const {
   const gpu::Cell& cell = cells_[place];
@@ -211,7 +220,11 @@ uint32_t NativeCells::score_one(const gpu::SurveyPlan& plan, uint32_t place, boo
   if (!lib::has_quarters(at)) return 0;
   is_stuck = false;
   const float area = lib::share_of_area(weights_[cell.face], plan.of_whole, at);
-  if (area > plan.map_area) score += of_map;
+  const auto is_seen = [&] {
+    return area > plan.map_area ||
+           lib::is_longer(lib::plain_corners(root_of(cell.face), at), plan.map_length);
+  };
+  if (of_map > 0 && is_seen()) score += of_map;
   return lib::score_bin(score * area + of_face);
 }
 
@@ -277,14 +290,9 @@ uint32_t NativeCells::place_of(size_t item) const {
 }
 
 void NativeCells::split_one(uint32_t rank) {
-  const auto vertex = [this](uint32_t number) {
-    const gpu::Vertex v = pair_.vertex_of_a(number);
-    return lib::Two3{{v.hi.x, v.hi.y, v.hi.z}, {v.lo.x, v.lo.y, v.lo.z}};
-  };
   gpu::Cell cell = cells_[parents_[rank]];
-  const glm::uvec3& f = a_.faces[cell.face];
   const lib::Bary3 at = corners_of(cell);
-  const uint32_t code = lib::cell_split(lib::make_root(vertex(f.x), vertex(f.y), vertex(f.z)), at);
+  const uint32_t code = lib::cell_split(root_of(cell.face), at);
   const lib::Bary6 points = lib::split_points(at, code);
   const gpu::CellBounds known = lib::bounds_of_parts(bounds_[parents_[rank]]);
   const native::Nearby near = near_[parents_[rank]];

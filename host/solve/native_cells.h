@@ -8,6 +8,7 @@
 
 #include "host/native/cells.h"
 #include "host/solve/cells.h"
+#include "shaders/math/bary.h"
 
 namespace vkh {
 
@@ -43,6 +44,7 @@ class NativeCells : public SurveyCells {
  private:
   uint32_t score_one(const gpu::SurveyPlan& plan, uint32_t place, bool& is_stuck) const;
   void list_chosen(const SurveyChoice& choice);
+  lib::Root root_of(uint32_t face) const;
   void split_one(uint32_t rank);
   uint32_t place_of(size_t item) const;
   void bound_one(uint32_t place);

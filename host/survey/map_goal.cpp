@@ -64,10 +64,15 @@ double percentile_99(std::span<const MapCell> cells, double most) {
   return all.value();
 }
 
-// The area of half a pixel, in the unit of A's areas.
-double least_area(const SurveyedPair& pair, const Areas& areas, const MapOptions& options) {
-  const double pixel = areas.unit.to_frame(diagonal(bounding_box(pair.a))) / options.pixels;
-  return pixel * pixel / 2;
+// The length of a pixel, in the files' units.
+double pixel_of(const SurveyedPair& pair, const MapOptions& options) {
+  return diagonal(bounding_box(pair.a)) / options.pixels;
+}
+
+// The area of half a pixel, as a share of A's.
+double least_area(double pixel, const Areas& areas) {
+  const double in_unit = areas.unit.to_frame(pixel);
+  return in_unit * in_unit / 2 / areas.whole;
 }
 
 // How far other triangulations of both meshes' polygons may move a distance, in the files' units.
@@ -98,7 +103,8 @@ MapGoals::MapGoals(const SurveyOptions& options, const SurveyedPair& pair, const
                    double farthest)
     : most_(most_of(options, pair)),
       open_(pair.frame.to_frame(open_of(pair))),
-      least_(least_area(pair, areas, *options.map) / areas.whole),
+      least_(least_area(pixel_of(pair, *options.map), areas)),
+      longest_(kPixels * pair.frame.to_frame(pixel_of(pair, *options.map))),
       floor_(least_width(pair)),
       is_sought_(!options.map->bar && farthest > 0),
       is_known_(!is_sought_),
@@ -151,6 +157,7 @@ gpu::SurveyPlan MapGoals::plan(double whole) const {
   const double step = step_of(bar_, open_, floor_);
   plan.map_step = static_cast<float>(is_nearly_met_ ? step : 2 * step);
   plan.map_area = static_cast<float>(is_nearly_met_ ? least_ : 2 * least_);
+  plan.map_length = static_cast<float>(is_nearly_met_ ? longest_ : 2 * longest_);
   plan.map_most = static_cast<float>(std::min(most_, 1e38));
   return plan;
 }
@@ -216,9 +223,9 @@ bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair
 }
 
 // If all cells are nearer, at least the worst places get sides.
-double near_zero(const SurveyedPair& pair, const CellMap& map, double reached) {
+double near_zero(double bar, double reached) {
   constexpr double kOfLargest = 0.5;
-  return std::min(pair.frame.to_frame(CellMap::kUnresolved * map.bar), kOfLargest * reached);
+  return std::min(CellMap::kUnresolved * bar, kOfLargest * reached);
 }
 
 // A width is rounded to a float twice, by a share of 2^-23 at most. The sums, the products and

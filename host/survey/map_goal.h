@@ -10,7 +10,7 @@
 
 namespace vkh {
 
-/// A cell scores if it is larger than a pixel, unresolved and not left out.
+/// A cell scores if it is larger than half a pixel or longer than two, unresolved and not left out.
 class MapGoals : public WaveGoals {
  public:
   /// `options` ask for a map. A has an area, and no distance is above `farthest`, in the frame.
@@ -27,6 +27,8 @@ class MapGoals : public WaveGoals {
     return is_nearly_met_ || 50 * split >= cells;
   }
   uint32_t parts() const override { return is_nearly_met_ ? 2 : 4; }
+  /// The end of the colours, in the frame, as far as it is known.
+  double bar() const { return bar_; }
   /// First splits into four the cells that are too wide by a factor of two, and then into two the
   /// cells that are still too wide: halves have about half of a cell's width and area. The bar's
   /// end moves little by then, and is found once more.
@@ -42,7 +44,8 @@ class MapGoals : public WaveGoals {
   static constexpr int kOctaves = 20, kCuts = 12;
   static constexpr double kNarrow =
       1.5;  // the factor by which the bar's end may move between two looks
-  const double most_, open_, least_, floor_;
+  static constexpr double kPixels = 2;  // two make no round cell of half a pixel's area longer
+  const double most_, open_, least_, longest_, floor_;
   const bool is_sought_;  // the bar's end,
   bool is_known_;         // for as long as cells are split as they are
   double bar_;            // in the frame
@@ -61,8 +64,8 @@ void add_sides(WaveSurvey& waves, CellMap& map);
 /// Whether MapOptions::sides_if_cheap asks for sides of this B: it is small, has no open edge, and
 /// neither mesh stands for any triangulation of its polygons.
 bool may_have_cheap_sides(const SurveyOptions& options, const SurveyedPair& pair);
-/// The distance, in the frame, up to which a cell has the colour of 0, so that it needs no side.
-/// `reached`: some point is this far.
-double near_zero(const SurveyedPair& pair, const CellMap& map, double reached);
+/// The distance, in the frame, up to which a cell has the colour of 0, so that it needs no side,
+/// beside a bar of that length. `reached`: some point is this far.
+double near_zero(double bar, double reached);
 
 }  // namespace vkh

@@ -121,7 +121,10 @@ void Surveying::refine(SurveyResult& result) {
     map->begin_fine();
     return waves_->refine(*map, most);
   };
-  if (map) refine_map(effort / 2);
+  if (map) {
+    refine_map(effort / 2);
+    find_cheap_sides(map->bar());  // cells that figures split hand them on
+  }
   if (options_.statistics && areas_.is_positive()) {
     FigureGoals goals(options_, pair_, waves_->farthest());
     result.ended = std::max(result.ended, waves_->refine(goals, effort));
@@ -193,17 +196,20 @@ void Surveying::add_normals(SurveyResult& result) {
 void Surveying::add_map(SurveyResult& result) {
   CellMap map = map_of(*waves_, areas_, pair_, options_);
   map.has_sides = sides_.has_value();
-  if (has_cheap_sides_) add_cheap_sides(map);
+  if (find_cheap_sides(pair_.frame.to_frame(map.bar))) {
+    add_sides(*waves_, map);
+    map.inside_out = cheap_sides_->shells().inside_out();
+  }
   result.map = std::make_shared<const CellMap>(std::move(map));
 }
 
-// Sides are added if B bounds a solid and time is left.
-void Surveying::add_cheap_sides(CellMap& map) {
-  const Sides sides(pair_, [this] { return meter_.sides_go_on(); });
-  if (!sides.is_solid()) return;
-  if (!waves_->find_sides(sides.search(), near_zero(pair_, map, waves_->reached()))) return;
-  add_sides(*waves_, map);
-  map.inside_out = sides.shells().inside_out();
+// Finds sides, if B bounds a solid, of the cells that have none and are farther than what looks
+// like 0 beside a bar of that length, in the frame. Returns whether time was left for all of them.
+bool Surveying::find_cheap_sides(double bar) {
+  if (!has_cheap_sides_) return false;
+  if (!cheap_sides_) cheap_sides_.emplace(pair_, [this] { return meter_.sides_go_on(); });
+  return cheap_sides_->is_solid() &&
+         waves_->find_sides(cheap_sides_->search(), near_zero(bar, waves_->reached()));
 }
 
 void Surveying::add_counts(SurveyResult& result) const {

@@ -42,7 +42,7 @@ class Surveying {
   void add_sides_of_all(SurveyResult& result);
   void add_normals(SurveyResult& result);
   void add_map(SurveyResult& result);
-  void add_cheap_sides(CellMap& map);
+  bool find_cheap_sides(double bar);
   void add_counts(SurveyResult& result) const;
 
   SurveyedPair pair_;
@@ -50,7 +50,7 @@ class Surveying {
   const bool has_cheap_sides_;
   SurveyMeter meter_;
   const Areas areas_;
-  std::optional<Sides> sides_;
+  std::optional<Sides> sides_, cheap_sides_;  // those asked for; those of a map
   std::optional<WaveSurvey> waves_;
   std::optional<SignedDistances> signed_;
 };

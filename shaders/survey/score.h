@@ -69,6 +69,14 @@ VKH_FN float map_score(CellBounds b, float step, float most) {
   return choose(step == 0.0f || lowest > most, 0.0f, more);
 }
 
+// Whether a map shows it as more than a dot: a needle has little area, but many lie side by side.
+VKH_FN bool is_longer(Corners t, float length) {
+  vec3 ab = t.b - t.a;
+  vec3 ac = t.c - t.a;
+  vec3 bc = t.c - t.b;
+  return max(dot3(ab, ab), max(dot3(ac, ac), dot3(bc, bc))) > length * length;
+}
+
 // The cell's share of A's area, of which its face has a weight.
 VKH_FN float share_of_area(Wide of_face, float of_whole, Bary3 at) {
   float weight = float(of_face.high) * 4294967296.0f + float(of_face.low);

@@ -1,6 +1,6 @@
-// Scores cells by the plan. In: cells, bounds, classes, agreements, weights, faces_reached (floats
-// as bits), plan, wave. Out: keys, the bins of the cells' scores, and histogram, the number of
-// cells in each bin; bin 0 counts the cells that keep their face open although no split helps. A
+// Scores cells by the plan. In: A, cells, bounds, classes, agreements, weights, faces_reached
+// (floats as bits), plan, wave. Out: keys, the bins of the cells' scores, and histogram, the number
+// of cells in each bin; bin 0 counts the cells that keep their face open although no split helps. A
 // workgroup goes over many cells.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -18,8 +18,11 @@ layout(scalar, binding = 6) readonly buffer FacesReached { uint faces_reached[];
 layout(scalar, binding = 7) readonly buffer Classes { uint classes[]; };
 layout(scalar, binding = 8) readonly buffer Agreements { CellAgreement agreements[]; };
 layout(scalar, binding = 9) readonly buffer WaveBlock { SurveyWave wave; };
+layout(scalar, binding = 10) readonly buffer Vertices { Vertex vertices[]; };
+layout(scalar, binding = 11) readonly buffer Faces { uvec3 faces[]; };
 layout(scalar, push_constant) uniform PushBlock { SurveyPush push; };
 
+#include "shaders/base/root.glsl"
 #include "shaders/survey/score.h"
 
 shared uint counts[kScoreBins];
@@ -54,6 +57,11 @@ float score_for_face(uint i, float highest, uint of_class) {
                     plan.face_within[side_index(of_class)], plan.face_beyond);
 }
 
+bool is_seen(Cell cell, Bary3 at, float area) {
+  return area > plan.map_area ||
+         is_longer(plain_corners(load_root(cell.face), at), plan.map_length);
+}
+
 struct Key {
   uint bin;
   bool is_stuck;  // it keeps its face open, and no split helps
@@ -73,7 +81,7 @@ Key key_of(uint i) {
   Bary3 at = unpack_corners(cell.corners);
   if (!has_quarters(at)) return none;
   float area = share_of_area(weights[cell.face], plan.of_whole, at);
-  if (area > plan.map_area) score += of_map;
+  if (of_map > 0.0 && is_seen(cell, at, area)) score += of_map;
   return Key(score_bin(score * area + of_face), false);
 }
 

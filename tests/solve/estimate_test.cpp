@@ -250,6 +250,44 @@ TEST_CASE("a map is cut until cells are resolved, or pixels") {
   }
 }
 
+// A strip of needles along x, each with a twentieth of half a pixel's area, beside waves along it.
+TEST_CASE("needles of a map are cut until they are resolved, or two pixels long") {
+  constexpr uint32_t kNeedles = 40;
+  Mesh a, b;
+  for (uint32_t i = 0; i <= kNeedles; ++i) {
+    const double y = 1e-5 * i;
+    a.vertices.insert(a.vertices.end(), {{-1, y, 0}, {1, y, 0}});
+    if (i == kNeedles) break;
+    a.faces.insert(a.faces.end(), {{2 * i, 2 * i + 1, 2 * i + 3}, {2 * i, 2 * i + 3, 2 * i + 2}});
+  }
+  constexpr uint32_t kSteps = 64;
+  for (uint32_t i = 0; i <= kSteps; ++i) {
+    const double x = -1.1 + 2.2 * i / kSteps, z = 0.1 + (i % 2 == 0 ? 0 : 0.05);
+    b.vertices.insert(b.vertices.end(), {{x, -1, z}, {x, 1, z}});
+    if (i == kSteps) break;
+    b.faces.insert(b.faces.end(), {{2 * i, 2 * i + 2, 2 * i + 3}, {2 * i, 2 * i + 3, 2 * i + 1}});
+  }
+  SurveyOptions options;
+  options.map = MapOptions{.pixels = 150, .bar = 0.15};
+  const SurveyResult r = survey_of(a, b, options);
+  CHECK(r.is_met());
+  REQUIRE(r.map);
+  const double pixel = 2.0 / 150;
+  size_t open = 0;
+  for (const MapCell& cell : r.map->cells) {
+    if (!r.map->is_unresolved(cell, 0.15)) continue;
+    ++open;
+    const std::array<glm::dvec3, 3> w = weights_of(cell);
+    const glm::uvec3 f = a.faces[cell.face];
+    const auto x_of = [&](const glm::dvec3& at) {
+      return at.x * a.vertices[f.x].x + at.y * a.vertices[f.y].x + at.z * a.vertices[f.z].x;
+    };
+    const auto [least, most] = std::minmax({x_of(w[0]), x_of(w[1]), x_of(w[2])});
+    CHECK(most - least <= 2 * pixel * 1.001);
+  }
+  CHECK(open < r.map->cells.size() / 2);
+}
+
 TEST_CASE("the colours of a cell with more faces about it than a device examines are true") {
   const Mesh a = square_patch(1, 0.0), b = height_field(48, 1);
   SurveyOptions options;

@@ -14,7 +14,8 @@ namespace vkh {
 
 /// The map that is asked for.
 struct MapOptions {
-  double pixels = 1000;  ///< A's diagonal in pixels: no cell of half a pixel's area is split
+  /// A's diagonal in pixels: no cell of half a pixel's area is split whose edges have two at most.
+  double pixels = 1000;
   /// The distance at the end of the colours, in the files' units; none: `CellMap::bar` finds one.
   std::optional<double> bar = {};
   /// Sides are wanted where they cost little: B has 50,000 faces at most, and an inside that is
