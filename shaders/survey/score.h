@@ -69,7 +69,7 @@ VKH_FN float map_score(CellBounds b, float step, float most) {
   return choose(step == 0.0f || lowest > most, 0.0f, more);
 }
 
-// Whether a map shows it as more than a dot: a needle has little area, but many lie side by side.
+// Whether an edge is longer than this: a map may show many needles of little area side by side.
 VKH_FN bool is_longer(Corners t, float length) {
   vec3 ab = t.b - t.a;
   vec3 ac = t.c - t.a;

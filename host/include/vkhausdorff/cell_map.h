@@ -14,7 +14,8 @@ namespace vkh {
 
 /// The map that is asked for.
 struct MapOptions {
-  /// A's diagonal in pixels: no cell of half a pixel's area is split whose edges have two at most.
+  /// A's diagonal in pixels. A cell of at most half a pixel's area is not split, unless one of its
+  /// edges is longer than two pixels.
   double pixels = 1000;
   /// The distance at the end of the colours, in the files' units; none: `CellMap::bar` finds one.
   std::optional<double> bar = {};
