@@ -52,8 +52,8 @@ class Helpers {
     std::condition_variable left;
   };
 
-  // Loops that run side by side share the helpers: three workers of a batch with 15 each took 16
-  // cores from its readers (docs/log/startup.md).
+  // Loops that run side by side share the helpers: if each had its own, those of a batch's workers
+  // would take the cores from its readers (docs/log/startup.md).
   void hire() {
     const size_t most = thread_count() - 1;
     try {

@@ -121,11 +121,9 @@ void Surveying::refine(SurveyResult& result) {
     map->begin_fine();
     return waves_->refine(*map, most);
   };
-  if (map) {
-    refine_map(effort / 2);
-    find_cheap_sides(map->bar());  // cells that figures split hand them on
-  }
+  if (map) refine_map(effort / 2);
   if (options_.statistics && areas_.is_positive()) {
+    if (map) find_cheap_sides(map->bar());  // cells that are split hand them on
     FigureGoals goals(options_, pair_, waves_->farthest());
     result.ended = std::max(result.ended, waves_->refine(goals, effort));
   }

@@ -250,7 +250,7 @@ TEST_CASE("a map is cut until cells are resolved, or pixels") {
   }
 }
 
-// A strip of needles along x, each with a twentieth of half a pixel's area, beside waves along it.
+// A strip of needles along x, each with a ninth of half a pixel's area, beside waves along it.
 TEST_CASE("needles of a map are cut until they are resolved, or two pixels long") {
   constexpr uint32_t kNeedles = 40;
   Mesh a, b;
