@@ -8,7 +8,9 @@ void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
   struct Given : RunBuffers {
     Slice<gpu::Cell> cells;
     Slice<gpu::CellBounds> bounds;
-    Slice<uint32_t> parents, faces_reached;  // of a survey only
+    // Of a survey only.
+    Slice<uint32_t> parents, faces_reached;
+    Slice<gpu::CornerTriangles> near_corners;
     Slice<gpu::SurveyWave> wave;
     gpu::CellPush push;
   };
@@ -18,6 +20,7 @@ void record_cells(Recorder& rec, const Problem& p, const AskedCells& asked) {
                   asked.bounds,
                   p.ws.unused,
                   p.ws.unused,
+                  as<gpu::CornerTriangles>(p.ws.unused),
                   as<gpu::SurveyWave>(p.ws.unused),
                   {.count = asked.count,
                    .given = given ? gpu::kGivenCells : gpu::kFacesOfA,

@@ -25,6 +25,7 @@ struct SurveyGiven : RunBuffers {
         classes(s.classes),
         keys(s.keys),
         parents(s.parents),
+        near_corners(s.near_corners),
         agreements(s.agreements),
         blocks(s.blocks),
         histogram(s.histogram),
@@ -37,6 +38,7 @@ struct SurveyGiven : RunBuffers {
   Slice<gpu::CellBounds> bounds;
   Slice<gpu::Wide> weights;
   Slice<uint32_t> faces_reached, face_errors, classes, keys, parents;
+  Slice<gpu::CornerTriangles> near_corners;
   Slice<gpu::CellAgreement> agreements;
   Slice<gpu::SurveyCounts> blocks;
   Slice<uint32_t> histogram;
@@ -246,6 +248,7 @@ void record_survey_sides(Recorder& rec, const Problem& p, const SurveyStreams& s
                                    .face_count = p.face_count,
                                    .triangle_count = p.b.face_count,
                                    .above = sides.above,
+                                   .near = sides.near,
                                    .moved = sides.moved,
                                    .is_solid = sides.isSolid,
                                    .front = sides.front});
@@ -336,6 +339,7 @@ void record_survey_move(Recorder& rec, const SurveyStreams& from, const SurveySt
   rec.copy(first_of(from.cells, cells), to.cells, Order::kIndependent);
   rec.copy(first_of(from.bounds, cells), to.bounds, Order::kIndependent);
   rec.copy(first_of(from.classes, cells), to.classes, Order::kIndependent);
+  rec.copy(first_of(from.near_corners, cells), to.near_corners, Order::kIndependent);
   rec.copy(first_of(from.agreements, cells), to.agreements, Order::kIndependent);
   rec.copy(first_of(from.keys, cells), to.keys, Order::kIndependent);
 }

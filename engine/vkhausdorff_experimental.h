@@ -110,6 +110,7 @@ VKH_API void vkhCmdTallySurvey(VkhContext context, VkCommandBuffer commandBuffer
 typedef struct VkhSurveySides {
   uint32_t first, count; /* of the cells */
   float above;           /* cells that are nowhere farther from B are left out */
+  float near;            /* a part of a cell that is nearer needs no side; 0: all of it does */
   float moved;         /* both meshes' vertices together may be this far off their stored places */
   VkBool32 isSolid;    /* B bounds a solid: it winds `front` times round all that is in front of */
   int32_t front;       /* its faces, and one time more or less round all other points off it */

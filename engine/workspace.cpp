@@ -154,6 +154,7 @@ void list(Suballocator& take, SurveyStreams& s, uint32_t face_count, uint32_t ca
   take(s.cells, capacity);
   take(s.bounds, capacity);
   take(s.classes, capacity);
+  take(s.near_corners, capacity);
   take(s.agreements, capacity);
   take(s.keys, capacity);
   take(s.parents, survey_parents(capacity));

@@ -85,13 +85,14 @@ struct SurveyStreams {
   Slice<uint32_t> faces_reached;  // per face of A, floats as bits: some point is at least so far
   Slice<uint32_t> face_errors;    // per face of A: bounds of its error that the caller reads
   Slice<gpu::Cell> cells;
-  Slice<gpu::CellBounds> bounds;         // one per cell
-  Slice<uint32_t> classes;               // one per cell
-  Slice<gpu::CellAgreement> agreements;  // one per cell
-  Slice<uint32_t> keys;                  // one per cell: the bin of its score
-  Slice<uint32_t> parents;               // the places of the cells that a wave has split
-  Slice<gpu::SurveyCounts> blocks;       // one per kSurveyBlock cells
-  Slice<uint32_t> histogram;             // one per bin
+  Slice<gpu::CellBounds> bounds;             // one per cell
+  Slice<gpu::CornerTriangles> near_corners;  // one per cell
+  Slice<uint32_t> classes;                   // one per cell
+  Slice<gpu::CellAgreement> agreements;      // one per cell
+  Slice<uint32_t> keys;                      // one per cell: the bin of its score
+  Slice<uint32_t> parents;                   // the places of the cells that a wave has split
+  Slice<gpu::SurveyCounts> blocks;           // one per kSurveyBlock cells
+  Slice<uint32_t> histogram;                 // one per bin
   Slice<gpu::SurveyPlan> plan;
   Slice<gpu::SurveyTable> table;
   Slice<gpu::SurveyWave> wave;

@@ -488,6 +488,12 @@ struct CellBounds {
   uint triangle;                // the same in the BVH's order
 };
 
+// The triangles of B near a cell's corners, in the BVH's order; kNone where none is known. They
+// steer.
+struct CornerTriangles {
+  uint a, b, c;
+};
+
 // How A's normal agrees with those of B's closest faces, over a cell: the mean of |cos| of the
 // angle between them lies in [least, most], and the share on which they agree in [sure, may].
 struct CellAgreement {
@@ -736,6 +742,7 @@ struct SurveySidesPush {
   uint face_count;      // of A
   uint triangle_count;  // of B
   float above;          // cells that are nowhere farther from B are left out
+  float near;           // a part of a cell that is nearer needs no side
   float moved;          // A's and B's vertices may be this far from where they are stored, together
   uint is_solid;        // B winds `front` times round all points in front of it,
   int front;            // and one time more or less round all others

@@ -219,6 +219,10 @@ ROWS = [
     row("crossing_of's direction", SIDE, "ahead == x ? x : 0", ["x"], ON_SIDE),
     row("may_be_closest's move", SIDE, "minorant_off(t, s) + 2.0f * moved", ["minorant_off(t, s) + moved", "minorant_off(t, s)"], ON_SIDE),
     row("is_off's move", SIDE, "lowest > round_up(moved, 4.0f)", ["lowest >= moved", "lowest > 0.0f"], ON_SIDE),
+    row("most_on_edge's rounding", PARTS, "to_end * (other_end - other)), 8.0f)", ["to_end * (other_end - other)), 0.0f)"], ON_SIDE),
+    row("most_on_edge's end", PARTS, "max(other, other + to_end", ["min(other, other + to_end"], ON_SIDE),
+    row("is_off_but_near's move", SIDE, "most_within(lower, upper, round_up(moved, 4.0f)) + moved", ["most_within(lower, upper, 0.0f) + moved", "most_within(lower, upper, round_up(moved, 4.0f))"], ON_SIDE),
+    row("is_off_inside's rounding", SIDE, "lower) - 8.0f * kUlp", ["lower) + 8.0f * kUlp"], ON_SIDE),
     row("class_with's other side", SIDE, "(before != kClassUnseen && before != now)", ["false"], ON_SIDE),
 
     row("surely_within's share", TALLY, "(within - (1.0f - b.sure)) - 2.0f * kUlp", ["within - (1.0f - b.sure)", "within"], ON_TALLY),

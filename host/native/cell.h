@@ -8,6 +8,7 @@
 #include "shaders/report/cell.h"
 #include "shaders/report/normal.h"
 #include "shaders/report/side.h"
+#include "shaders/report/split.h"
 #undef float
 
 namespace vkh::native {

@@ -68,7 +68,11 @@ class Gathering {
   }
 
   const Gathered& found() const { return g_; }
-  const Nearby& near() const { return near_; }
+  Nearby near() const {
+    Nearby near = near_;
+    near.at_corners = {corner(0), corner(1), corner(2)};
+    return near;
+  }
 
  private:
   // The triangle nearest to a corner.
@@ -146,6 +150,28 @@ gpu::CellBounds PlacedPair::bounds(const gpu::Cell& cell, Nearby& near) const {
   gathering.look_at_pairs();
   near = gathering.near();
   return bounds_of(gathering.found(), view);
+}
+
+// Does what survey_split.comp does.
+uint32_t PlacedPair::split(const gpu::Cell& cell, const gpu::CellBounds& bounds,
+                           const Nearby& near) const {
+  const CellView v(*problem_, cell);
+  const Corners& t = v.cell.at;
+  const float widest = std::max({bounds.upper_a - bounds.lower_a, bounds.upper_b - bounds.lower_b,
+                                 bounds.upper_c - bounds.lower_c});
+  if (widest < kLeastGain || bounds.triangle == kNone) return split_as_shaped(t);
+  const std::array of{near.at_corners[0], near.at_corners[1], near.at_corners[2], bounds.triangle};
+  const auto distances_of = [&](const Corners& at) {
+    Distances d;
+    for (size_t k = 0; k < 4; ++k) {
+      const size_t same = static_cast<size_t>(std::find(of.begin(), of.end(), of[k]) - of.begin());
+      d.from[k] = same < k ? d.from[same] : distances_from(v.surface(of[k]), at, v.cell);
+    }
+    return d;
+  };
+  const Distances corners = distances_of(t), middles = distances_of(middles_of(t));
+  const uint32_t x = edge_to_halve(t, corners, middles);
+  return split_from(x, t, corners, middles, distances_of(fresh_middles(t, x)));
 }
 
 }  // namespace vkh::native

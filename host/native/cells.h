@@ -20,7 +20,8 @@ struct Problem;
 struct Nearby {
   static constexpr uint32_t kMost = 8;
   std::array<uint32_t, kMost> place{};
-  uint32_t count = kMost + 1;  ///< more than kMost: any may be
+  uint32_t count = kMost + 1;            ///< more than kMost: any may be
+  std::array<uint32_t, 3> at_corners{};  ///< the ones near a cell's corners, if it was bounded
 
   bool is_known() const { return count <= kMost; }
   void add(uint32_t triangle) {
@@ -51,6 +52,8 @@ class PlacedPair {
   /// Bounds a cell, in the frame. `triangle` and `start` are places in this pair's own order of B.
   /// `near`: the triangles known to be near, which the call replaces by the ones found.
   gpu::CellBounds bounds(const gpu::Cell& cell, Nearby& near) const;
+  /// How to split a cell that was bounded, by what bounds() returned: a code of math/dyadic.h.
+  uint32_t split(const gpu::Cell& cell, const gpu::CellBounds& bounds, const Nearby& near) const;
   /// Finds the class of a cell with these bounds, as survey_sides.comp does. `face_kinds`: of B's
   /// faces.
   uint32_t side_class(const gpu::Cell& cell, const gpu::CellBounds& bounds,

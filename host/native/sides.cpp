@@ -22,9 +22,11 @@ class SideOfCell {
         face_kinds_(face_kinds),
         moved_(static_cast<double>(search.moved)) {}
 
-  // The class by counting along rays on the three axes; kClassUnseen: each ray meets an edge of B.
-  uint32_t by_winding() const {
+  // The class by counting along rays on the three axes; kClassUnseen: each ray meets an edge of B,
+  // or starts where the cell may touch it.
+  uint32_t by_winding(const vec3& lower, bool is_off) const {
     for (uint32_t axis = 0; axis < 3; ++axis) {
+      if (!is_off && !is_off_inside(lower, axis, moved_)) continue;
       int winding = 0;
       const auto look = [&](uint32_t place) {
         const Crossing c = crossing_along(v_.cell, v_.surface(place), axis);
@@ -91,8 +93,14 @@ uint32_t PlacedPair::side_class(const gpu::Cell& cell, const gpu::CellBounds& bo
                                 std::span<const uint32_t> face_kinds) const {
   const CellView view(*problem_, cell);
   const SideOfCell side(view, search, face_kinds);
-  const bool off = is_off(lowest_of(bounds), static_cast<double>(search.moved));
-  const uint32_t found = search.is_solid != 0 && off ? side.by_winding() : gpu::kClassUnseen;
+  const auto moved = static_cast<double>(search.moved);
+  const vec3 lower(bounds.lower_a, bounds.lower_b, bounds.lower_c);
+  const vec3 upper(bounds.upper_a, bounds.upper_b, bounds.upper_c);
+  const bool off = is_off(lowest_of(bounds), moved);
+  const bool has_one =
+      off || is_off_but_near(lower, upper, moved, static_cast<double>(search.near));
+  const uint32_t found =
+      search.is_solid != 0 && has_one ? side.by_winding(lower, off) : gpu::kClassUnseen;
   return found != gpu::kClassUnseen ? found : side.by_planes(bounds, off);
 }
 

@@ -69,6 +69,7 @@ struct SideSearch {
   bool is_solid = false;
   int front = 0;
   float moved = 0;  ///< the most that both meshes' vertices together are from where they are stored
+  float near = 0;   ///< a part of a cell that is nearer needs no side
 };
 
 /// The input of a comparison of normals.

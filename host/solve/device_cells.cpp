@@ -147,6 +147,7 @@ void DeviceCells::find_sides(const SideSearch& search, float above, const CellRa
     const VkhSurveySides sides{some.first,
                                some.count,
                                above,
+                               search.near,
                                search.moved,
                                search.is_solid ? VK_TRUE : VK_FALSE,
                                search.front,

@@ -292,7 +292,7 @@ uint32_t NativeCells::place_of(size_t item) const {
 void NativeCells::split_one(uint32_t rank) {
   gpu::Cell cell = cells_[parents_[rank]];
   const lib::Bary3 at = corners_of(cell);
-  const uint32_t code = lib::cell_split(root_of(cell.face), at);
+  const uint32_t code = pair_.split(cell, bounds_[parents_[rank]], near_[parents_[rank]]);
   const lib::Bary6 points = lib::split_points(at, code);
   const gpu::CellBounds known = lib::bounds_of_parts(bounds_[parents_[rank]]);
   const native::Nearby near = near_[parents_[rank]];
@@ -366,6 +366,7 @@ void NativeCells::find_sides(const SideSearch& search, float above, const CellRa
                                    .face_count = 0,
                                    .triangle_count = 0,
                                    .above = above,
+                                   .near = search.near,
                                    .moved = search.moved,
                                    .is_solid = search.is_solid ? 1u : 0u,
                                    .front = search.front};

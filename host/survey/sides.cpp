@@ -42,7 +42,7 @@ Sides::Sides(const SurveyedPair& pair, const GoesOn& goes_on)
 }
 
 SideSearch Sides::search() const {
-  return {face_kinds_, is_solid(), shells_.front(), float_up(displacement_)};
+  return {face_kinds_, is_solid(), shells_.front(), float_up(displacement_), 0};
 }
 
 CellSide side_of_class(uint32_t of_class) {

@@ -206,8 +206,11 @@ void Surveying::add_map(SurveyResult& result) {
 bool Surveying::find_cheap_sides(double bar) {
   if (!has_cheap_sides_) return false;
   if (!cheap_sides_) cheap_sides_.emplace(pair_, [this] { return meter_.sides_go_on(); });
-  return cheap_sides_->is_solid() &&
-         waves_->find_sides(cheap_sides_->search(), near_zero(bar, waves_->reached()));
+  if (!cheap_sides_->is_solid()) return false;
+  SideSearch search = cheap_sides_->search();
+  const double near = near_zero(bar, waves_->reached());
+  search.near = static_cast<float>(near);
+  return waves_->find_sides(search, near);
 }
 
 void Surveying::add_counts(SurveyResult& result) const {

@@ -49,6 +49,27 @@ VKH_FN float mean_square_up(vec3 d) {
   return round_up((squares + products) * kSixthUp, 8.0f);
 }
 
+// On an edge from a corner at which the one function is not over t: >= the other, none negative,
+// as far as the one is not over t. Between the corners it is a mean of its values there, by a part
+// that is off by 4 kUlp of itself.
+VKH_FN float most_on_edge(float one, float other, float one_end, float other_end, float t) {
+  if (one > t) return 0.0f;
+  float to_end = choose(one_end > t, ratio(t - one, one_end - one), 1.0f);
+  return round_up(max(other, other + to_end * (other_end - other)), 8.0f);
+}
+
+// >= the affine function `other`, none of its values negative, wherever on the triangle the affine
+// function `one` is not over t; 0 if that is nowhere.
+VKH_FN float most_within(vec3 one, vec3 other, float t) {
+  float ab = max(most_on_edge(one.x, other.x, one.y, other.y, t),
+                 most_on_edge(one.y, other.y, one.x, other.x, t));
+  float bc = max(most_on_edge(one.y, other.y, one.z, other.z, t),
+                 most_on_edge(one.z, other.z, one.y, other.y, t));
+  float ca = max(most_on_edge(one.z, other.z, one.x, other.x, t),
+                 most_on_edge(one.x, other.x, one.z, other.z, t));
+  return max(ab, max(bc, ca));
+}
+
 // An affine function's zero cuts the triangle: one corner is alone on its side, `own` its size
 // there. The triangle next to it has `corner` of the area; the rest are two triangles, with
 // `rest` of the area and the sizes 0, `first` and `second`, and with `last` and 0, 0 and `second`.

@@ -1,10 +1,10 @@
 // Bounds d(x, B) over cells of A, one item per cell: sub-triangles of its faces; faces push.first
 // and after; or a survey's new cells, of which wave tells the places. In: cells, wave; A and B's
-// BVH. Out: bounds[cell], and of a survey's cell its start and its face's faces_reached, a float as
-// bits. One traversal finds the triangle nearest to the cell's middle; another examines the
-// triangles that may be closest somewhere on the cell (report/cell.h), at most kCellTriangles of
-// them; boxes stand for the rest. Each result depends on its cell alone. If A or B is no mesh, or
-// if there is no run (push.triangle_count is 0), bounds are NaN.
+// BVH. Out: bounds[cell], and of a survey's cell its start, near_corners, and its
+// face's faces_reached, a float as bits. One traversal finds the triangle nearest to the cell's
+// middle; another examines the triangles that may be closest somewhere on the cell (report/cell.h),
+// at most kCellTriangles of them; boxes stand for the rest. Each result depends on its cell alone.
+// If A or B is no mesh, or if there is no run (push.triangle_count is 0), bounds are NaN.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_GOOGLE_include_directive : require
@@ -24,6 +24,7 @@ layout(scalar, binding = 9) readonly buffer BFault { uint b_fault; };
 layout(scalar, binding = 10) readonly buffer Parents { uint parents[]; };
 layout(scalar, binding = 11) buffer FacesReached { uint faces_reached[]; };
 layout(scalar, binding = 12) readonly buffer WaveBlock { SurveyWave wave; };
+layout(scalar, binding = 13) writeonly buffer NearCorners { CornerTriangles near_corners[]; };
 layout(scalar, push_constant) uniform PushBlock { CellPush push; };
 
 #include "shaders/base/root.glsl"
@@ -183,7 +184,11 @@ void main() {
   }
   Cell cell = cell_at(i);
   CellFrame t = make_cell(load_root(cell.face), unpack_corners(cell.corners));
-  CellBounds found = bounds_of(with_pairs(gather(t, cell.start), t), t);
-  if (push.given == kSurveyCells) found = kept_bounds(found, place, cell.face);
+  Gathered g = with_pairs(gather(t, cell.start), t);
+  CellBounds found = bounds_of(g, t);
+  if (push.given == kSurveyCells) {
+    found = kept_bounds(found, place, cell.face);
+    near_corners[place] = CornerTriangles(g.of_corners.x, g.of_corners.y, g.of_corners.z);
+  }
   bounds[place] = found;
 }

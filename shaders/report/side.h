@@ -1,7 +1,8 @@
 // The side of B on which a cell T of A lies.
 //
 // Where B bounds a solid and T is off it, T is connected and so on one side: that of any of its
-// points, by the number of times that B winds round it, which a ray from the point counts.
+// points, by the number of times that B winds round it, which a ray from the point counts. A T that
+// touches B has the side of what is off B, if the rest of it is so near that it needs none.
 // Elsewhere T is over B where it is in front of the planes of all triangles that may be closest
 // somewhere on it, and under B where it is behind them all.
 //
@@ -80,13 +81,16 @@ VKH_FN bool may_be_closest(CellFrame t, Surface s, Above above, float moved) {
   return !beyond_of(t, s, above, moved).is_far;
 }
 
-// A point of T, as good as any: `turn` 0 to 2. It is off by T's slack, and by 4 kUlp of the radius.
-VKH_FN vec3 inner_point(CellFrame t, uint turn) {
+// A point of T by its weights, as good as any: `turn` 0 to 2.
+VKH_FN vec3 inner_weights(uint turn) {
   vec3 w = vec3(0.5017f, 0.2271f, 0.2712f);
-  vec3 a = choose(turn == 0u, t.at.a, choose(turn == 1u, t.at.b, t.at.c));
-  vec3 b = choose(turn == 0u, t.at.b, choose(turn == 1u, t.at.c, t.at.a));
-  vec3 c = choose(turn == 0u, t.at.c, choose(turn == 1u, t.at.a, t.at.b));
-  return (w.x * a + w.y * b) + w.z * c;
+  return choose(turn == 0u, w, choose(turn == 1u, vec3(w.z, w.x, w.y), vec3(w.y, w.z, w.x)));
+}
+
+// That point. It is off by T's slack, and by 4 kUlp of the radius.
+VKH_FN vec3 inner_point(CellFrame t, uint turn) {
+  vec3 w = inner_weights(turn);
+  return (w.x * t.at.a + w.y * t.at.b) + w.z * t.at.c;
 }
 
 // The error, beyond 3 kUlp of itself, of a coordinate of S's corners as seen from inner_point():
@@ -167,6 +171,18 @@ VKH_FN Crossing crossing_along(CellFrame t, Surface s, uint axis) {
 
 // Whether T is off B wherever the vertices are: `lowest` is not above d(x, B) on T.
 VKH_FN bool is_off(float lowest, float moved) { return lowest > round_up(moved, 4.0f); }
+
+// Whether T is off B except where it is nearer than `near`, and is_off_inside(): where the affine
+// function `lower` tells that it is off, T is convex, and so on one side of B.
+VKH_FN bool is_off_but_near(vec3 lower, vec3 upper, float moved, float near) {
+  return round_up(most_within(lower, upper, round_up(moved, 4.0f)) + moved, 1.0f) < near;
+}
+
+// Whether T is off B at an inner point, by `lower`: a mean of its values, off by 5 kUlp of the
+// largest.
+VKH_FN bool is_off_inside(vec3 lower, uint turn, float moved) {
+  return is_off(dot3(inner_weights(turn), lower) - 8.0f * kUlp * max3(sizes(lower)), moved);
+}
 
 // The class of a cell when one more triangle that may be closest is looked at: of `kind`, with T on
 // this side of it. `before`: kClassUnseen at first.

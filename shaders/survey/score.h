@@ -27,6 +27,10 @@ VKH_FN float lowest_of(CellBounds b) {
   return max(min(b.lower_a, min(b.lower_b, b.lower_c)), 0.0f);
 }
 
+// The affine functions between which the distances lie, by their values at the corners.
+VKH_FN vec3 lower_of(CellBounds b) { return vec3(b.lower_a, b.lower_b, b.lower_c); }
+VKH_FN vec3 upper_of(CellBounds b) { return vec3(b.upper_a, b.upper_b, b.upper_c); }
+
 // A cell as a map draws it: an affine function, by its values at the corners.
 struct DrawnCell {
   vec3 at;
@@ -36,10 +40,8 @@ struct DrawnCell {
 // The distance is above `lower` and under `upper`, two affine functions, which are farthest from
 // what is drawn at a corner; and between two numbers.
 VKH_FN DrawnCell drawn_by(CellBounds b, vec3 at) {
-  vec3 lower = vec3(b.lower_a, b.lower_b, b.lower_c);
-  vec3 upper = vec3(b.upper_a, b.upper_b, b.upper_c);
-  float farther = min(max3(upper - at), b.highest - least3(at));
-  float nearer = min(max3(at - lower), max3(at) - lowest_of(b));
+  float farther = min(max3(upper_of(b) - at), b.highest - least3(at));
+  float nearer = min(max3(at - lower_of(b)), max3(at) - lowest_of(b));
   DrawnCell drawn;
   drawn.at = at;
   drawn.off = max(farther, nearer);
@@ -50,7 +52,7 @@ VKH_FN DrawnCell drawn_by(CellBounds b, vec3 at) {
 VKH_FN DrawnCell drawn_of(CellBounds b) {
   float lowest = lowest_of(b);
   float middle = 0.5f * (lowest + b.highest);
-  vec3 middles = 0.5f * vec3(b.lower_a + b.upper_a, b.lower_b + b.upper_b, b.lower_c + b.upper_c);
+  vec3 middles = 0.5f * (lower_of(b) + upper_of(b));
   vec3 most = vec3(b.highest, b.highest, b.highest);
   DrawnCell affine = drawn_by(b, min(max(middles, vec3(lowest, lowest, lowest)), most));
   DrawnCell level = drawn_by(b, vec3(middle, middle, middle));
@@ -59,13 +61,14 @@ VKH_FN DrawnCell drawn_of(CellBounds b) {
 }
 
 // Scores a cell for a map by how much more than `step` it is off, unless all of it is farther than
-// `most`. One that may touch B has no side, perhaps: its colour is none where it reaches farther
-// than two steps. A step of 0: there is no map.
+// `most`. Where it may touch B it has no side: it has a colour all the same if that part of it
+// reaches no farther than a step, or all of it no farther than two. A step of 0: there is no map.
 VKH_FN float map_score(CellBounds b, float step, float most) {
   DrawnCell drawn = drawn_of(b);
   float lowest = lowest_of(b);
-  float reach = choose(lowest > 0.0f, 0.0f, max3(drawn.at) + drawn.off);
-  float more = max(max(drawn.off, 0.5f * reach) - step, 0.0f);
+  float all = choose(lowest > 0.0f, 0.0f, max3(drawn.at) + drawn.off);
+  float part = min(most_within(lower_of(b), upper_of(b), 0.0f), b.highest);
+  float more = max(max(drawn.off, min(0.5f * all, part)) - step, 0.0f);
   return choose(step == 0.0f || lowest > most, 0.0f, more);
 }
 
@@ -90,21 +93,8 @@ VKH_FN float face_score(float highest, float reached, float tolerance, float wit
   return choose(reached > beyond, 0.0f, max(above, 0.0f));
 }
 
-// The split of a cell into four as a code of math/dyadic.h: it is halved at its longest edge, and
-// so are the halves, so that cells are halves of halves of their face. kSplitNone: the bits have
-// run out.
-VKH_FN uint cell_split(Root root, Bary3 at) {
-  uint x = opposite_longest(plain_corners(root, at));
-  Bary6 first = split_points(at, bisection_code(x, 0u, 0u));
-  uvec3 all = uvec3(0u, 1u, 2u);
-  uint y = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 0u))));
-  uint z = opposite_longest(plain_corners(root, child_of(first, bisected(all, x, 3u, 1u))));
-  uint code = bisection_code(x, y, z);
-  return choose(can_split(at, code), code, kSplitNone);
-}
-
 // Whether the cell can be split into four at any edges: the middles of its edges, and of theirs,
-// are dyadic points where all corners are multiples of four. It needs no vertex of A.
+// are dyadic points where all corners are multiples of four.
 VKH_FN bool has_quarters(Bary3 t) {
   uvec2 any = uvec2(t.a.x | t.b.x | t.c.x, t.a.y | t.b.y | t.c.y);
   return ((any.x | any.y) & 3u) == 0u;

@@ -75,9 +75,11 @@ void find_told(Search s, CellFrame t) {
   if (look_through(s, t) == kSeenSome) told = Told(kClassMany, 0, false, 0u);
 }
 
-// The class by rays along the three axes; kClassUnseen: each meets an edge of B.
-uint class_by_winding(CellFrame t) {
+// The class by rays along the three axes; kClassUnseen: each meets an edge of B, or starts where
+// the cell may touch it.
+uint class_by_winding(CellFrame t, vec3 lower, bool off) {
   for (uint axis = 0u; axis < 3u; ++axis) {
+    if (!off && !is_off_inside(lower, axis, push.moved)) continue;
     find_told(search_along(t, axis), t);
     if (told.is_sure) return told.winding == push.front ? kClassOver : kClassUnder;
   }
@@ -85,7 +87,7 @@ uint class_by_winding(CellFrame t) {
 }
 
 uint class_by_planes(CellFrame t, CellBounds b, bool off) {
-  above = Above(vec3(b.upper_a, b.upper_b, b.upper_c), b.highest);
+  above = Above(upper_of(b), b.highest);
   find_told(search_near(t, b.highest, push.moved), t);
   uint found = told.of_class;
   return found == kClassEdge && !off ? kClassMeets : found;
@@ -100,9 +102,10 @@ void main() {
   uint face = min(cell.face, push.face_count - 1u);
   CellFrame t = make_cell(load_root(face), unpack_corners(cell.corners));
   bool off = is_off(lowest_of(b), push.moved);
-  uint found = push.is_solid != 0u && !off ? kClassMeets : class_by_planes(t, b, off);
-  if (push.is_solid != 0u && off && !has_side(found)) {
-    uint by_winding = class_by_winding(t);
+  bool has_one = off || is_off_but_near(lower_of(b), upper_of(b), push.moved, push.near);
+  uint found = push.is_solid != 0u && !has_one ? kClassMeets : class_by_planes(t, b, off);
+  if (push.is_solid != 0u && has_one && !has_side(found)) {
+    uint by_winding = class_by_winding(t, lower_of(b), off);
     found = by_winding == kClassUnseen ? found : by_winding;
   }
   classes[i] = found;

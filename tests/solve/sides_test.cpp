@@ -278,6 +278,27 @@ void check_cell(Attack& attack, const ExactSides& oracle, const ClosedCase& b, c
   }
 }
 
+// The same of a cell whose part that is nearer than `near` needs no side.
+void check_near(test::Tally& tally, const ExactSides& oracle, const ClosedCase& b,
+                const SurveyedPair& pair, const gpu::Cell& cell, SurfaceSide told, double near,
+                Random& random) {
+  if (told == SurfaceSide::kUnsigned) return;
+  const glm::uvec3& f = pair.a.faces[cell.face];
+  const double sure = near + 1e-6 * (near + diagonal(b.mesh));
+  for (const glm::uvec3& w : points_of(cell, random)) {
+    const exact::Vector p = oracle.point(cell.face, w);
+    const std::optional<int> winding = oracle.winding(p);
+    const dvec3 at = (pair.a.vertices[f.x] * double(w.x) + pair.a.vertices[f.y] * double(w.y) +
+                      pair.a.vertices[f.z] * double(w.z)) *
+                     0x1p-24;
+    if (!winding || point_mesh_distance(at, pair.b) < sure) continue;
+    const bool is_over = *winding == (b.name != std::string("reversed") ? 0 : -1);
+    tally.require((told == SurfaceSide::kOver) == is_over, "the side of what is not near",
+                  [&] { return std::string(b.name); });
+    tally.count("points that are not near, with a side by parity", true);
+  }
+}
+
 void attack(Attack& attack, uint64_t seed, uint32_t cells) {
   Random random(seed);
   const ClosedCase b = closed_case(static_cast<uint32_t>(seed % kFamilies), random);
@@ -306,6 +327,18 @@ void attack(Attack& attack, uint64_t seed, uint32_t cells) {
       check_cell(attack, oracle, b,
                  {told.cells[i], side_of_class(classes[i]), side_of_class(told.classes[i])}, sides,
                  pair, random);
+    }
+    if (!sides.is_solid()) return;
+    SideSearch but_near = sides.search();
+    const double near = std::exp2(random.range(-12, -2)) * diagonal(b.mesh);
+    but_near.near = static_cast<float>(pair.frame.to_frame(near));
+    const std::vector<uint32_t> strictly(told.classes.begin(), told.classes.end());
+    const CellsRead more = sided_cells(pair, but_near, at_least);
+    for (size_t i = 0; i < strictly.size(); ++i) {
+      const SurfaceSide side = side_of_class(more.classes[i]).side;
+      if (side_of_class(strictly[i]).side == side) continue;
+      attack.tally.count("cells with the side of what is not near", true);
+      check_near(attack.tally, oracle, b, pair, more.cells[i], side, near, random);
     }
   });
 }

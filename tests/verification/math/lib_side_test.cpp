@@ -197,4 +197,61 @@ TEST_CASE("a cell is off B where its vertices cannot move it there, and classes 
   CHECK(lib::class_with(gpu::kClassOver, gpu::kFaceBare, 1) == gpu::kClassDegenerate);
 }
 
+// The most that one affine function reaches where another is not over t, exactly.
+mpq_class exact_most(const vec3& one, const vec3& other, float t) {
+  const std::array<mpq_class, 3> x{one.x, one.y, one.z}, y{other.x, other.y, other.z};
+  mpq_class most = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    if (x[i] > mpq_class(t)) continue;
+    most = std::max(most, y[i]);
+    for (size_t j = 0; j < 3; ++j) {
+      if (x[j] <= mpq_class(t)) continue;
+      const mpq_class end = y[i] + (mpq_class(t) - x[i]) / (x[j] - x[i]) * (y[j] - y[i]);
+      most = std::max(most, end);
+    }
+  }
+  return most;
+}
+
+TEST_CASE("most_within: an affine function is nowhere more where another is not over t") {
+  Random random(11);
+  const auto any = [&](double low) {
+    return static_cast<float>(std::exp2(random.range(-20, 2)) * random.range(low, 1));
+  };
+  int cut = 0, nowhere = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    const vec3 one(any(-1), any(-1), any(-1)), other(any(0), any(0), any(0));
+    const float t = i % 2 == 0 ? 0 : any(-1), found = lib::most_within(one, other, t);
+    const mpq_class most = exact_most(one, other, t);
+    REQUIRE(mpq_class(found) >= most);
+    CHECK(mpq_class(found) <= most * mpq_class(1.00001) + mpq_class(1e-37));
+    nowhere += most == 0 ? 1 : 0;
+    cut += std::max({one.x, one.y, one.z}) > t ? 1 : 0;
+  }
+  CHECK(nowhere > 1000);
+  CHECK(cut - nowhere > 1000);
+}
+
+TEST_CASE("a cell that touches B is off it but near, and the ray starts where it is off") {
+  const vec3 lower(-1e-9f, 0.5f, 0.25f), upper(1e-9f, 0.5f, 0.25f);
+  CHECK(lib::is_off_but_near(lower, upper, 0, 1e-6f));
+  CHECK_FALSE(lib::is_off_but_near(lower, upper, 0, 0));
+  CHECK_FALSE(lib::is_off_but_near(lower, upper, 1e-6f, 1e-6f));
+  CHECK(lib::is_off_but_near(lower, upper, 1e-6f, 1e-5f));
+  CHECK_FALSE(lib::is_off_but_near(lower, {0.1f, 0.5f, 0.25f}, 0, 0.1f));
+  CHECK_FALSE(lib::is_off_but_near({0.5f, 0.5f, 0.5f}, upper, 0, 0));
+  for (uint32_t turn = 0; turn < 3; ++turn) {
+    const vec3 w = lib::inner_weights(turn);
+    CHECK(w.x + w.y + w.z == doctest::Approx(1).epsilon(1e-6));
+    CHECK(std::max({w.x, w.y, w.z}) == (turn == 0 ? w.x : turn == 1 ? w.y : w.z));
+    CHECK(lib::is_off_inside(lower, turn, 0));
+    CHECK_FALSE(lib::is_off_inside(lower, turn, 0.5f));
+    lib::CellFrame t{};
+    t.at = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    CHECK(lib::inner_point(t, turn) == w);
+  }
+  CHECK(lib::is_off_inside({-1, 1, -1}, 1, 0));
+  CHECK_FALSE(lib::is_off_inside({-1, 1, -1}, 0, 0));
+}
+
 }  // namespace

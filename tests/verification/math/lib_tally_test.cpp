@@ -250,37 +250,11 @@ TEST_CASE("score.h: bins ascend with scores, eight an octave, and nought has non
   CHECK(last < gpu::kScoreBins);
 }
 
-TEST_CASE("score.h: a cell is split into four of a quarter each, as long as the bits last") {
-  const lib::Root thick =
-      lib::make_root(lib::two({0, 0, 0}), lib::two({1, 0, 0}), lib::two({0, 1, 0}));
-  const lib::Root thin =
-      lib::make_root(lib::two({0, 0, 0}), lib::two({1, 0, 0}), lib::two({0.5f, 0.01f, 0}));
-  for (const lib::Root& root : {thick, thin}) {
-    lib::Bary3 at = lib::whole_root();
-    unsigned depth = 0;
-    for (uint32_t code = lib::cell_split(root, at); code != lib::kSplitNone;
-         code = lib::cell_split(root, at)) {
-      const lib::Bary6 points = lib::split_points(at, code);
-      for (uint32_t k = 0; k < 4; ++k) {
-        const lib::Bary3 child = lib::child_of(points, lib::child_points(code, k));
-        CHECK(lib::halvings_of(child) == 2 * depth + 2);
-      }
-      at = lib::child_of(points, lib::child_points(code, 3));
-      ++depth;
-    }
-    CHECK(depth >= 9);
-  }
-  CHECK(lib::cell_split(thick, lib::whole_root()) == lib::bisection_code(0, 2, 1));
-  CHECK(lib::cell_split(thin, lib::whole_root()) != lib::kSplitMidpoint);
-}
-
-TEST_CASE("score.h: halves are the two halves of the quarters, and quarters need no vertex") {
-  const lib::Root root =
-      lib::make_root(lib::two({0, 0, 0}), lib::two({1, 0, 0}), lib::two({0.5f, 0.01f, 0}));
+TEST_CASE("score.h: halves are the two halves of the quarters, which are a quarter each") {
   lib::Bary3 at = lib::whole_root();
-  for (unsigned depth = 0; lib::has_quarters(at); ++depth) {
-    const uint32_t code = lib::cell_split(root, at);
-    REQUIRE(code != lib::kSplitNone);
+  unsigned depth = 0;
+  for (; lib::has_quarters(at); ++depth) {
+    const uint32_t code = lib::bisection_code(depth % 3, (depth + 1) % 3, depth / 3 % 3);
     for (uint32_t x = 0; x < 27; ++x)
       CHECK(lib::can_split(at, lib::bisection_code(x % 3, x / 3 % 3, x / 9)));
     const lib::Bary6 points = lib::split_points(at, code);
@@ -295,11 +269,12 @@ TEST_CASE("score.h: halves are the two halves of the quarters, and quarters need
         CHECK(quarter.a == same.a);
         CHECK(quarter.b == same.b);
         CHECK(quarter.c == same.c);
+        CHECK(lib::halvings_of(quarter) == 2 * depth + 2);
       }
     }
     at = lib::child_of(points, lib::child_points(code, 3));
   }
-  CHECK_FALSE(lib::has_quarters(at));
+  CHECK(depth >= 9);
 }
 
 gpu::CellBounds any_bounds(Random& random) {
