@@ -313,7 +313,7 @@ TEST_CASE("a device's survey is the same with other threads and other batches") 
     CAPTURE(goes_on_in_the_host);
     SurveyOptions options = all_of_it({0.14, 0.2});
     options.mean_tolerance = options.face_tolerance = 1e-6;  // the effort ends it
-    options.effort = 70000;
+    options.effort = 50000;
     if (goes_on_in_the_host) options.normals_within = 20;
     options.cosine_tolerance = options.agreeing_tolerance = 1e-9;
     const Threads one(1);
