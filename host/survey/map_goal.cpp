@@ -69,10 +69,11 @@ double pixel_of(const SurveyedPair& pair, const MapOptions& options) {
   return diagonal(bounding_box(pair.a)) / options.pixels;
 }
 
-// The area of half a pixel, as a share of A's.
+// The area of an eighth of a pixel, as a share of A's. Hatched cells of half a pixel, at B's
+// vertices, are seen as dots.
 double least_area(double pixel, const Areas& areas) {
   const double in_unit = areas.unit.to_frame(pixel);
-  return in_unit * in_unit / 2 / areas.whole;
+  return in_unit * in_unit / 8 / areas.whole;
 }
 
 // How far other triangulations of both meshes' polygons may move a distance, in the files' units.

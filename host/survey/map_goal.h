@@ -10,7 +10,8 @@
 
 namespace vkh {
 
-/// A cell scores if it is larger than half a pixel or longer than two, unresolved and not left out.
+/// A cell scores if it is unresolved, not left out, and larger than an eighth of a pixel or longer
+/// than two.
 class MapGoals : public WaveGoals {
  public:
   /// `options` ask for a map. A has an area, and no distance is above `farthest`, in the frame.
@@ -44,7 +45,7 @@ class MapGoals : public WaveGoals {
   static constexpr int kOctaves = 20, kCuts = 12;
   static constexpr double kNarrow =
       1.5;  // the factor by which the bar's end may move between two looks
-  static constexpr double kPixels = 2;  // two make no round cell of half a pixel's area longer
+  static constexpr double kPixels = 2;  // two make no round cell of an eighth of a pixel longer
   const double most_, open_, least_, longest_, floor_;
   const bool is_sought_;  // the bar's end,
   bool is_known_;         // for as long as cells are split as they are

@@ -241,7 +241,7 @@ TEST_CASE("a map is cut until cells are resolved, or pixels") {
   CHECK(r.is_met());
   REQUIRE(r.map);
   CHECK(r.map->bar == 0.4);
-  const double pixel = std::sqrt(12.0) / 300, least = 0.5 * pixel * pixel / 12.3;
+  const double pixel = std::sqrt(12.0) / 300, least = 0.125 * pixel * pixel / 12.3;
   for (const MapCell& cell : r.map->cells) {
     const bool is_resolved =
         static_cast<double>(cell.width) * r.map->unit <= 0.4 * CellMap::kUnresolved * 1.001;
@@ -250,7 +250,7 @@ TEST_CASE("a map is cut until cells are resolved, or pixels") {
   }
 }
 
-// A strip of needles along x, each with a ninth of half a pixel's area, beside waves along it.
+// A strip of needles along x, each with an eighteenth of a pixel's area, beside waves along it.
 TEST_CASE("needles of a map are cut until they are resolved, or two pixels long") {
   constexpr uint32_t kNeedles = 40;
   Mesh a, b;

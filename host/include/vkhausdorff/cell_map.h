@@ -14,8 +14,8 @@ namespace vkh {
 
 /// The map that is asked for.
 struct MapOptions {
-  /// A's diagonal in pixels. A cell of at most half a pixel's area is not split, unless one of its
-  /// edges is longer than two pixels.
+  /// A's diagonal in pixels. A cell of at most an eighth of a pixel's area is not split, unless
+  /// one of its edges is longer than two pixels.
   double pixels = 1000;
   /// The distance at the end of the colours, in the files' units; none: `CellMap::bar` finds one.
   std::optional<double> bar = {};
