@@ -254,4 +254,44 @@ TEST_CASE("a cell that touches B is off it but near, and the ray starts where it
   CHECK_FALSE(lib::is_off_inside({-1, 1, -1}, 0, 0));
 }
 
+// `near` is next to the most that is not off B: both what lies between 0 and `moved`, and that B
+// may be nearer by it, have to count.
+TEST_CASE("is_off_but_near: what is not off B is nearer, wherever the vertices are") {
+  Random random(12);
+  const auto any = [&](double low) {
+    return static_cast<float>(std::exp2(random.range(-6, 2)) * random.range(low, 1));
+  };
+  int told = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const vec3 lower(any(-1), any(-1), any(-1)), more(any(0), any(0), any(0));
+    const vec3 upper = max(lower, vec3(0, 0, 0)) + more;
+    const float off = i % 2 == 0 ? 0 : std::abs(any(-1));
+    const mpq_class most = exact_most(lower, upper, off) + mpq_class(off);
+    const auto near = static_cast<float>(most.get_d() * random.range(0.9, 1.1));
+    if (!lib::is_off_but_near(lower, upper, off, near)) continue;
+    ++told;
+    REQUIRE(most < mpq_class(near));
+  }
+  CHECK(told > 30'000);
+}
+
+// Values whose mean is a few roundings from `moved`.
+TEST_CASE("is_off_inside: the affine function is over what the vertices move") {
+  Random random(13);
+  int told = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const auto turn = static_cast<uint32_t>(random.below(3));
+    const vec3 w = lib::inner_weights(turn);
+    const auto any = [&] { return static_cast<float>(random.range(-1, 1)); };
+    const float off = i % 2 == 0 ? 0 : static_cast<float>(std::exp2(random.range(-20, 0)));
+    vec3 lower(any(), any(), 0);
+    const double mean = static_cast<double>(off) + random.range(-24, 24) * lib::kUlp;
+    lower.z = static_cast<float>((mean - w.x * lower.x - w.y * lower.y) / w.z);
+    if (!lib::is_off_inside(lower, turn, off)) continue;
+    ++told;
+    REQUIRE(mpq_class(w.x) * lower.x + mpq_class(w.y) * lower.y + mpq_class(w.z) * lower.z > off);
+  }
+  CHECK(told > 5'000);
+}
+
 }  // namespace
